@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "pipeline/geometry/lens.hpp"
+
+namespace bodyscan {
+
+struct RigidTransform {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // mm
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation; }
+};
+
+struct Calibration {
+  Lens camera;
+  Lens projector;
+  RigidTransform projector_from_camera;
+};
+
+}  // namespace bodyscan

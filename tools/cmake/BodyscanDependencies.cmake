@@ -1,0 +1,28 @@
+# Debian's packages, as static archives by explicit path (docs/decisions.md says why).
+set(BODYSCAN_ARCHIVES /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE})
+
+find_package(Threads REQUIRED)
+
+function(bodyscan_archive target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ARCHIVES;INCLUDES;USES")
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  foreach(archive ${arg_ARCHIVES})
+    if(NOT EXISTS ${BODYSCAN_ARCHIVES}/${archive})
+      message(FATAL_ERROR "${BODYSCAN_ARCHIVES}/${archive} is missing: run tools/setup")
+    endif()
+    target_link_libraries(${target} INTERFACE ${BODYSCAN_ARCHIVES}/${archive})
+  endforeach()
+  target_include_directories(${target} SYSTEM INTERFACE ${arg_INCLUDES})
+  target_link_libraries(${target} INTERFACE ${arg_USES})
+endfunction()
+
+bodyscan_archive(ext::zlib ARCHIVES libz.a)
+bodyscan_archive(ext::png ARCHIVES libpng16.a USES ext::zlib)
+bodyscan_archive(ext::jpeg ARCHIVES libjpeg.a)
+# The archive refers to TBB; pipeline/base/opencv_runtime stands in for it.
+bodyscan_archive(ext::opencv_core ARCHIVES libopencv_core.a INCLUDES /usr/include/opencv4
+                 USES ext::zlib Threads::Threads)
+bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
+bodyscan_archive(ext::json)   # nlohmann, header-only
+bodyscan_archive(ext::cli11)  # header-only
+bodyscan_archive(ext::expected)  # tl::expected, header-only
