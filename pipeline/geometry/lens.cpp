@@ -1,43 +1,26 @@
 #include "pipeline/geometry/lens.hpp"
 
-#include <Eigen/LU>
+#include <cmath>
+
+#include "pipeline/geometry/distortion.hpp"
 
 namespace bodyscan {
-namespace {
-
-// Distorted point and its derivative by the ideal one.
-struct Distorted {
-  Eigen::Vector2d point;
-  Eigen::Matrix2d jacobian;
-};
-
-Distorted distort_with_jacobian(const std::array<double, 5>& coefficients, const Eigen::Vector2d& ideal) {
-  const auto [k1, k2, p1, p2, k3] = coefficients;
-  const double x = ideal.x();
-  const double y = ideal.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = 2 * (k1 + r2 * (2 * k2 + r2 * 3 * k3));  // d radial / d r2, doubled
-  Distorted result;
-  result.point = {x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x),
-                  y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y};
-  const double cross = x * y * slope + 2 * p1 * x + 2 * p2 * y;
-  result.jacobian << radial + x * x * slope + 2 * p1 * y + 6 * p2 * x, cross, cross,
-      radial + y * y * slope + 6 * p1 * y + 2 * p2 * x;
-  return result;
-}
-
-}  // namespace
 
 Eigen::Vector2d Lens::distort(const Eigen::Vector2d& ideal) const {
-  return distort_with_jacobian(distortion, ideal).point;
+  const auto at = Distortion<double>(distortion)(ideal.x(), ideal.y());
+  return {at.x, at.y};
 }
 
 Eigen::Vector2d Lens::undistort(const Eigen::Vector2d& distorted) const {
+  const Distortion<double> model(distortion);
   Eigen::Vector2d ideal = distorted;
   for (int i = 0; i < 20; ++i) {
-    const Distorted at = distort_with_jacobian(distortion, ideal);
-    const Eigen::Vector2d step = at.jacobian.inverse() * (distorted - at.point);
+    const auto at = model(ideal.x(), ideal.y());
+    const double dx = distorted.x() - at.x;
+    const double dy = distorted.y() - at.y;
+    const double determinant = at.x_by_x * at.y_by_y - at.x_by_y * at.x_by_y;
+    const Eigen::Vector2d step((at.y_by_y * dx - at.x_by_y * dy) / determinant,
+                               (at.x_by_x * dy - at.x_by_y * dx) / determinant);
     if (!step.allFinite()) break;
     ideal += step;
     if (step.squaredNorm() < 1e-28) break;

@@ -1,0 +1,146 @@
+#include "pipeline/decode/decoder.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/decode/local_fit.hpp"
+#include "pipeline/decode/locate_stripes.hpp"
+#include "pipeline/decode/response.hpp"
+
+namespace bodyscan {
+namespace {
+
+template <class Pixel>
+void copy_pixels(const Image<Pixel>& from, Luma& to) {
+  auto* reuse = std::get_if<Image<Pixel>>(&to);
+  if (reuse == nullptr || reuse->size() != from.size()) {
+    to = from.clone();
+    return;
+  }
+  std::copy_n(from.data(), from.size().area(), reuse->data());
+}
+
+void copy_luma(const Luma& from, Luma& to) {
+  std::visit([&](const auto& image) { copy_pixels(image, to); }, from);
+}
+
+Image<std::uint16_t> sum_linear(const Luma& white, const Luma& black, const std::vector<std::uint16_t>& linear) {
+  Image<std::uint16_t> sum(size_of(white));
+  std::visit(
+      [&](const auto& w) {
+        const auto& b = std::get<std::decay_t<decltype(w)>>(black);
+        for (std::size_t i = 0; i < sum.size().area(); ++i)
+          sum.data()[i] = static_cast<std::uint16_t>(linear[w.data()[i]] + linear[b.data()[i]]);
+      },
+      white);
+  return sum;
+}
+
+std::size_t count_decoded(const Correspondence& found) {
+  std::atomic<std::size_t> decoded = 0;
+  parallel_for(0, found.camera.height, 64, [&](int begin, int end) {
+    std::size_t here = 0;
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < found.camera.width; ++x)
+        here += (!found.rows || !std::isnan(found.rows->coordinate(x, y))) &&
+                (!found.columns || !std::isnan(found.columns->coordinate(x, y)));
+    }
+    decoded += here;
+  });
+  return decoded;
+}
+
+}  // namespace
+
+Decoder::Decoder(PatternSequence sequence, const DecodeOptions& options)
+    : sequence_(std::move(sequence)), options_(options) {}
+
+Expected<Decoder> Decoder::create(PatternSequence sequence, const DecodeOptions& options) {
+  if (auto checked = options.check(); !checked) return tl::unexpected(checked.error());
+  SequenceOptions shape{.rows = false, .columns = false, .inverses = false};
+  for (const Pattern& pattern : sequence.patterns) {
+    if (pattern.kind != PatternKind::gray) continue;
+    (pattern.axis == Axis::row ? shape.rows : shape.columns) = true;
+    shape.inverses |= pattern.inverted;
+  }
+  const auto canonical = make_sequence(sequence.projector, shape);
+  if (!canonical) return tl::unexpected(canonical.error());
+  if (canonical->patterns != sequence.patterns)
+    return tl::unexpected(Error{ErrorKind::usage,
+                                "the sequence must be white, black, then rows and columns bit by bit, coarsest "
+                                "first, each with its inverse or all without"});
+  Decoder decoder(std::move(sequence), options);
+  decoder.inverses_ = shape.inverses;
+  return decoder;
+}
+
+Expected<void> Decoder::consume(const Frame& frame) {
+  if (next_ == sequence_.patterns.size()) return input_error("a frame came after the sequence's last one");
+  const Pattern& expected = sequence_.patterns[next_];
+  if (frame.pattern != expected)
+    return input_error("expected the frame of pattern " + describe(expected) + ", got " + describe(frame.pattern));
+  if (next_ > 0 && (size_of(frame.luma) != size_of(held_) || frame.luma.index() != held_.index()))
+    return input_error("the frame of pattern " + describe(expected) + " differs from the first in size or depth");
+  ++next_;
+  if (frame.pattern.kind != PatternKind::gray) return consume_white_black(frame);
+  consume_bit(frame);
+  return {};
+}
+
+Expected<void> Decoder::consume_white_black(const Frame& frame) {
+  if (frame.pattern.kind == PatternKind::white) {
+    linear_ = linear_table(options_.response, std::holds_alternative<GrayImage8>(frame.luma) ? 8 : 16);
+    copy_luma(frame.luma, held_);
+    return {};
+  }
+  auto light = measure_illumination(held_, frame.luma, options_.min_contrast, linear_);
+  if (!light) return tl::unexpected(light.error());
+  light_ = std::move(*light);
+  if (!inverses_) middle_ = sum_linear(held_, frame.luma, linear_);
+  return {};
+}
+
+void Decoder::consume_bit(const Frame& frame) {
+  const Pattern& pattern = frame.pattern;
+  auto& planes = planes_of(pattern.axis);
+  if (!planes) {
+    const Size projector = sequence_.projector;
+    planes.emplace(size_of(frame.luma),
+                   gray_bits(pattern.axis == Axis::row ? projector.height : projector.width));
+  }
+  if (!inverses_)
+    planes->add_against(pattern.bit, frame.luma, middle_, linear_);
+  else if (pattern.inverted)
+    planes->add(pattern.bit, held_, frame.luma, linear_);
+  else
+    copy_luma(frame.luma, held_);
+}
+
+Expected<Correspondence> Decoder::finish() {
+  if (next_ < sequence_.patterns.size())
+    return input_error("the frame of pattern " + describe(sequence_.patterns[next_]) + " is missing");
+  Correspondence found{.camera = light_.contrast.size(),
+                       .projector = sequence_.projector,
+                       .rows = {},
+                       .columns = {},
+                       .pixels_lit = light_.pixels_lit,
+                       .pixels_decoded = 0};
+  held_ = {};
+  middle_ = {};
+  const auto locate = [&](std::optional<StripePlanes>& planes, int count,
+                          std::optional<AxisCorrespondence>& axis) {
+    if (!planes) return;
+    AxisCorrespondence raw = locate_stripes(*planes, light_, count, options_);
+    planes.reset();
+    axis = fit_locally(std::move(raw), options_.smoothing_rows);
+  };
+  locate(rows_, sequence_.projector.height, found.rows);
+  locate(columns_, sequence_.projector.width, found.columns);
+  light_ = {};
+  found.pixels_decoded = count_decoded(found);
+  return found;
+}
+
+}  // namespace bodyscan

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "pipeline/base/error.hpp"
+#include "pipeline/decode/correspondence.hpp"
+#include "pipeline/decode/decode_options.hpp"
+#include "pipeline/decode/illumination.hpp"
+#include "pipeline/decode/stripe_planes.hpp"
+#include "pipeline/image/frame.hpp"
+#include "pipeline/pattern/sequence.hpp"
+
+namespace bodyscan {
+
+// Takes a Gray-code sequence frame by frame, as the camera delivers it, and keeps a fixed number of bytes a
+// pixel. Decoder: white, black, then bit by bit, coarsest first -> finish. Frames must come in the sequence's
+// order; anything else is an error that names the frame expected.
+class Decoder {
+ public:
+  // The sequence must start with white and black and then hold each axis's bits coarsest first, each followed
+  // by its inverse or none at all.
+  static Expected<Decoder> create(PatternSequence sequence, const DecodeOptions& options = {});
+
+  Expected<void> consume(const Frame& frame);
+
+  // After the last frame; leaves the decoder empty.
+  Expected<Correspondence> finish();
+
+ private:
+  Decoder(PatternSequence sequence, const DecodeOptions& options);
+
+  Expected<void> consume_white_black(const Frame& frame);
+  void consume_bit(const Frame& frame);
+  std::optional<StripePlanes>& planes_of(Axis axis) { return axis == Axis::row ? rows_ : columns_; }
+
+  PatternSequence sequence_;
+  DecodeOptions options_;
+  bool inverses_ = false;
+  std::size_t next_ = 0;
+  std::vector<std::uint16_t> linear_;
+  Luma held_;                      // white until black comes, a pattern until its inverse comes
+  Image<std::uint16_t> middle_;    // white plus black, for sequences without inverses
+  Illumination light_;
+  std::optional<StripePlanes> rows_;
+  std::optional<StripePlanes> columns_;
+};
+
+}  // namespace bodyscan

@@ -1,0 +1,95 @@
+#include "pipeline/decode/stripe_planes.hpp"
+
+#include <cstdlib>
+#include <limits>
+
+#include "pipeline/base/instruction_set.hpp"
+
+namespace bodyscan {
+namespace {
+
+struct AddFineBit {
+  BODYSCAN_KERNEL void run(int width, int bit, const std::int16_t* difference, std::uint16_t* gray,
+                           std::int16_t* fine) {
+    for (int x = 0; x < width; ++x) {
+      gray[x] = static_cast<std::uint16_t>(gray[x] | ((difference[x] > 0 ? 1U : 0U) << bit));
+      fine[x] = difference[x];
+    }
+  }
+};
+
+struct AddCoarseBit {
+  BODYSCAN_KERNEL void run(int width, int bit, const std::int16_t* difference, std::uint16_t* gray,
+                           std::uint16_t* coarse) {
+    for (int x = 0; x < width; ++x) {
+      gray[x] = static_cast<std::uint16_t>(gray[x] | ((difference[x] > 0 ? 1U : 0U) << bit));
+      const auto size = static_cast<std::uint16_t>(difference[x] < 0 ? -difference[x] : difference[x]);
+      coarse[x] = size < coarse[x] ? size : coarse[x];
+    }
+  }
+};
+
+template <class Pixel>
+void subtract(int width, const Pixel* pattern, const Pixel* inverse, const std::uint16_t* linear,
+              std::int16_t* difference) {
+  for (int x = 0; x < width; ++x)
+    difference[x] = static_cast<std::int16_t>(linear[pattern[x]] - linear[inverse[x]]);
+}
+
+template <class Pixel>
+void subtract_middle(int width, const Pixel* pattern, const std::uint16_t* middle, const std::uint16_t* linear,
+                     std::int16_t* difference) {
+  for (int x = 0; x < width; ++x)
+    difference[x] = static_cast<std::int16_t>(2 * linear[pattern[x]] - middle[x]);
+}
+
+}  // namespace
+
+StripePlanes::StripePlanes(Size camera, int count)
+    : bit_count(count), gray(camera, 0), coarse(camera, std::numeric_limits<std::uint16_t>::max()) {
+  for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
+}
+
+void StripePlanes::add_row(int bit, int y, const std::int16_t* difference) {
+  const int width = gray.width();
+  if (bit < fine_bits)
+    run_kernel<AddFineBit>(width, bit, difference, gray.row(y), fine[static_cast<std::size_t>(bit)].row(y));
+  else
+    run_kernel<AddCoarseBit>(width, bit, difference, gray.row(y), coarse.row(y));
+
+  const int from_coarsest = bit_count - 1 - bit;
+  if (from_coarsest < 2 && bit >= fine_bits && y % plateau_step == 0) {
+    for (int x = 0; x < width; x += plateau_step)
+      plateau[static_cast<std::size_t>(from_coarsest)].push_back(
+          static_cast<std::uint16_t>(std::abs(static_cast<int>(difference[x]))));
+  }
+}
+
+void StripePlanes::add(int bit, const Luma& pattern, const Luma& inverse,
+                       std::span<const std::uint16_t> linear) {
+  std::vector<std::int16_t> difference(static_cast<std::size_t>(gray.width()));
+  std::visit(
+      [&](const auto& lit) {
+        const auto& dark = std::get<std::decay_t<decltype(lit)>>(inverse);
+        for (int y = 0; y < gray.height(); ++y) {
+          subtract(gray.width(), lit.row(y), dark.row(y), linear.data(), difference.data());
+          add_row(bit, y, difference.data());
+        }
+      },
+      pattern);
+}
+
+void StripePlanes::add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
+                               std::span<const std::uint16_t> linear) {
+  std::vector<std::int16_t> difference(static_cast<std::size_t>(gray.width()));
+  std::visit(
+      [&](const auto& lit) {
+        for (int y = 0; y < gray.height(); ++y) {
+          subtract_middle(gray.width(), lit.row(y), middle.row(y), linear.data(), difference.data());
+          add_row(bit, y, difference.data());
+        }
+      },
+      pattern);
+}
+
+}  // namespace bodyscan

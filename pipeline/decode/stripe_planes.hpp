@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/base/image.hpp"
+#include "pipeline/image/frame.hpp"
+
+namespace bodyscan {
+
+// What the decoder keeps of one axis's bits, a fixed number of bytes a pixel however many frames come.
+// Differences are pattern minus inverse in linear light (linear_full_scale), so that their sign is the bit.
+struct StripePlanes {
+  static constexpr int fine_bits = 3;
+
+  StripePlanes(Size camera, int bit_count);
+
+  int bit_count = 0;
+  Image<std::uint16_t> gray;                            // Gray code, a bit set where the pattern beat its inverse
+  std::array<Image<std::int16_t>, fine_bits> fine;      // difference of bits 0, 1, 2
+  Image<std::uint16_t> coarse;                          // smallest |difference| of bits 3 and up
+  std::array<std::vector<std::uint16_t>, 2> plateau;    // |difference| of the two coarsest bits, every
+  static constexpr int plateau_step = 4;                // plateau_step-th pixel both ways: they measure the noise
+
+  // Takes bit `bit` in, coarsest first: both pictures as photographed, `linear` as of linear_table.
+  void add(int bit, const Luma& pattern, const Luma& inverse, std::span<const std::uint16_t> linear);
+
+  // The same for a sequence without inverses: `middle` is the sum of white and black in linear light.
+  void add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
+                   std::span<const std::uint16_t> linear);
+
+ private:
+  void add_row(int bit, int y, const std::int16_t* difference);
+};
+
+}  // namespace bodyscan

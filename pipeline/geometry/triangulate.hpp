@@ -1,0 +1,24 @@
+#pragma once
+
+#include "pipeline/base/error.hpp"
+#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/decode/correspondence.hpp"
+#include "pipeline/geometry/point_grid.hpp"
+
+namespace bodyscan {
+
+struct TriangulateOptions {
+  float max_sigma_mm = 5;         // a point whose depth is less certain is left out
+  float max_disagreement = 6;     // rows against columns, in standard deviations of their difference
+
+  [[nodiscard]] Expected<void> check() const;
+};
+
+// The depth at which each pixel's camera ray meets the measured projector row or column, the projector's
+// distortion included (a projected row is a curve in space, not a plane): Newton's method on depth from the
+// solution without distortion. Rows and columns, where both were measured, are met in least squares, each
+// weighted with its uncertainty. Input error: the correspondence's sizes are not the calibration's.
+Expected<PointGrid> triangulate(const Correspondence& correspondence, const Calibration& calibration,
+                                const TriangulateOptions& options = {});
+
+}  // namespace bodyscan
