@@ -15,6 +15,13 @@ bool force_instruction_set(InstructionSet level);
 // code must call only functions that are always inlined too.
 #define BODYSCAN_KERNEL [[gnu::always_inline]] static inline
 
+// Before a kernel's loop: its buffers do not overlap, so the loop may be vectorised without asking.
+#ifdef __clang__
+#define BODYSCAN_VECTORIZE _Pragma("clang loop vectorize(enable)")
+#else
+#define BODYSCAN_VECTORIZE _Pragma("GCC ivdep")
+#endif
+
 namespace detail {
 
 template <class Kernel, class... Args>

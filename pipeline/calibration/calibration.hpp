@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "pipeline/geometry/lens.hpp"
+
+#include <Eigen/Core>
 
 namespace bodyscan {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
+#include "pipeline/decode/local_fit.hpp"
 #include "pipeline/image/tone_response.hpp"
 
 namespace bodyscan {
@@ -11,7 +12,7 @@ struct DecodeOptions {
   float min_direct_share = 0.06F;    // of white minus black: a pixel whose stripes vary less sees scattered light
   float min_signal_to_noise = 3;     // of the stripes' difference: a pixel below is undecided
   int max_dropped_bits = 2;          // finest bits given up where the optics no longer resolve them, 0 to 2
-  float smoothing_rows = 0.6F;       // half width of the local fit, in the finest resolved stripe's rows; 0: none
+  LocalFitOptions fit;
 
   [[nodiscard]] Expected<void> check() const;
 };

@@ -134,7 +134,7 @@ Expected<Correspondence> Decoder::finish() {
     if (!planes) return;
     AxisCorrespondence raw = locate_stripes(*planes, light_, count, options_);
     planes.reset();
-    axis = fit_locally(std::move(raw), options_.smoothing_rows);
+    axis = fit_locally(std::move(raw), options_.fit);
   };
   locate(rows_, sequence_.projector.height, found.rows);
   locate(columns_, sequence_.projector.width, found.columns);

@@ -17,11 +17,33 @@ constexpr double prior_samples = 300;
 
 using Density = std::array<double, bins>;
 
+// Binomial passes over the tiles: the window must fade out, since a hard edge cuts through stripes and makes some
+// positions in them more frequent than others. Doubled with each dropped bit, as the stripes are.
+constexpr int blur_passes = 4;
+
+// One pass of 1 2 1 in both directions; what lies beyond the border counts as empty.
+void blur(Image<Density>& tiles) {
+  const auto pass = [](Density* first, std::ptrdiff_t stride, int count) {
+    Density before{};
+    for (int i = 0; i < count; ++i) {
+      Density& here = first[i * stride];
+      const Density old = here;
+      for (std::size_t bin = 0; bin < bins; ++bin)
+        here[bin] = 2 * old[bin] + before[bin] + (i + 1 < count ? first[(i + 1) * stride][bin] : 0);
+      before = old;
+    }
+  };
+  for (int y = 0; y < tiles.height(); ++y) pass(tiles.row(y), 1, tiles.width());
+  for (int x = 0; x < tiles.width(); ++x) pass(tiles.data() + x, tiles.width(), tiles.height());
+  for (Density& tile : tiles.pixels())
+    for (double& count : tile) count /= 16;
+}
+
 // Least-squares fit of the cumulative distribution at the bin edges.
-EdgeProfile::Coefficients fit(const Density& density) {
+std::array<float, terms> fit(const Density& density) {
   double total = 0;
   for (const double count : density) total += count;
-  EdgeProfile::Coefficients coefficients{};
+  std::array<float, terms> coefficients{};
   if (total <= 0) return coefficients;
 
   Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Identity() * 1e-6;
@@ -47,36 +69,36 @@ EdgeProfile::Coefficients fit(const Density& density) {
 
 EdgeProfile::Histogram::Histogram(Size camera)
     : counts_({(camera.width + tile_px - 1) / tile_px, (camera.height + tile_px - 1) / tile_px},
-              std::array<std::uint32_t, bins>{}) {}
+              Counts{}) {}
 
-void EdgeProfile::Histogram::add_run(int y, int begin, int end, const float* ratios) {
+void EdgeProfile::Histogram::add_run(int y, int begin, int end, const float* ratios,
+                                     const std::uint16_t* cells) {
   auto* tiles = counts_.row(y / tile_px);
   for (int x = begin; x < end; ++x) {
     if (std::isnan(ratios[x])) continue;
     const int bin = std::min(static_cast<int>(ratios[x] * bins), bins - 1);
-    ++tiles[x / tile_px][static_cast<std::size_t>(bin)];
+    ++tiles[x / tile_px][kind_of(cells[x])][static_cast<std::size_t>(bin)];
   }
 }
 
-EdgeProfile::EdgeProfile(const Histogram& histogram) : tiles_(histogram.counts_.size()) {
-  const auto& counts = histogram.counts_;
-  Density whole{};
-  double whole_total = 0;
-  for (const auto& tile : counts.pixels()) {
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-      whole[bin] += tile[bin];
-      whole_total += tile[bin];
+EdgeProfile::EdgeProfile(const Histogram& histogram, int dropped) : tiles_(histogram.counts_.size()) {
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    Image<Density> densities(tiles_.size());
+    Density whole{};
+    double whole_total = 1e-9;
+    for (std::size_t i = 0; i < densities.size().area(); ++i) {
+      for (std::size_t bin = 0; bin < bins; ++bin) {
+        const double count = histogram.counts_.data()[i][kind][bin];
+        densities.data()[i][bin] = count;
+        whole[bin] += count;
+        whole_total += count;
+      }
     }
-  }
-  for (int ty = 0; ty < tiles_.height(); ++ty) {
-    for (int tx = 0; tx < tiles_.width(); ++tx) {
-      Density density{};
-      for (std::size_t bin = 0; bin < bins; ++bin)
-        density[bin] = whole_total > 0 ? prior_samples * whole[bin] / whole_total : 0;
-      for (int y = std::max(0, ty - 1); y <= std::min(tiles_.height() - 1, ty + 1); ++y)
-        for (int x = std::max(0, tx - 1); x <= std::min(tiles_.width() - 1, tx + 1); ++x)
-          for (std::size_t bin = 0; bin < bins; ++bin) density[bin] += counts(x, y)[bin];
-      tiles_(tx, ty) = fit(density);
+    for (int pass = 0; pass < blur_passes << dropped; ++pass) blur(densities);
+    for (std::size_t i = 0; i < densities.size().area(); ++i) {
+      Density density = densities.data()[i];
+      for (std::size_t bin = 0; bin < bins; ++bin) density[bin] += prior_samples * whole[bin] / whole_total;
+      tiles_.data()[i][kind] = fit(density);
     }
   }
 }
@@ -89,9 +111,10 @@ void EdgeProfile::coefficients_of_row(int y, int width, float* coefficients) con
   const int top = static_cast<int>(v);
   const int bottom = std::min(top + 1, tiles_.height() - 1);
   const float down = v - static_cast<float>(top);
-  for (std::size_t term = 0; term < terms; ++term) {
+  for (std::size_t term = 0; term < kinds * terms; ++term) {
     const auto column = [&](int tx) {
-      return tiles_(tx, top)[term] * (1 - down) + tiles_(tx, bottom)[term] * down;
+      return tiles_(tx, top)[term / terms][term % terms] * (1 - down) +
+             tiles_(tx, bottom)[term / terms][term % terms] * down;
     };
     float* out = coefficients + term * static_cast<std::size_t>(width);
     for (int x = 0; x < width;) {

@@ -24,6 +24,7 @@ struct Inputs {
 
 struct CoarserOf {
   BODYSCAN_KERNEL void run(int width, const std::int16_t* difference, std::uint16_t* smallest) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
       const auto size = static_cast<std::uint16_t>(difference[x] < 0 ? -difference[x] : difference[x]);
       smallest[x] = size < smallest[x] ? size : smallest[x];
@@ -33,6 +34,7 @@ struct CoarserOf {
 
 struct EdgeRatio {
   BODYSCAN_KERNEL void run(Inputs in, float* ratio, std::uint16_t* cell, float* deviation) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < in.width; ++x) {
       unsigned binary = in.gray[x];
       binary ^= binary >> 8;
@@ -48,7 +50,7 @@ struct EdgeRatio {
       const float total = fine + coarse;
       const float variance = in.noise.constant + in.noise.slope * contrast;
       // The picture's first and last stripe lack one of their edges.
-      const bool inside = index > 0 && ((index + 1) << in.dropped) < static_cast<unsigned>(in.count);
+      const bool inside = (index > 0) & (((index + 1) << in.dropped) < static_cast<unsigned>(in.count));
       const bool direct = (contrast > 0) & (total >= in.min_direct_share * contrast) &
                           (total * total >= in.min_signal_to_noise * in.min_signal_to_noise * variance);
       const float scale = 1 / (total > 1 ? total : 1);

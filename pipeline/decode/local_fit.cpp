@@ -42,6 +42,7 @@ struct Weights {
 struct KeepSmooth {
   BODYSCAN_KERNEL void run(int width, const float* above, const float* row, const float* below,
                            const float* sigma, float* kept) {
+    BODYSCAN_VECTORIZE
     for (int x = 1; x < width - 1; ++x) {
       const float across = std::abs(row[x - 1] - 2 * row[x] + row[x + 1]);
       const float along = std::abs(above[x] - 2 * row[x] + below[x]);
@@ -53,9 +54,11 @@ struct KeepSmooth {
 
 struct FitAcross {
   BODYSCAN_KERNEL void run(int width, int radius, const float* weights, const float* row, float* fitted) {
+    BODYSCAN_VECTORIZE
     for (int x = radius; x < width - radius; ++x) fitted[x] = 0;
     for (int i = -radius; i <= radius; ++i) {
       const float weight = weights[i + radius];
+      BODYSCAN_VECTORIZE
       for (int x = radius; x < width - radius; ++x) fitted[x] += weight * row[x + i];
     }
   }
@@ -63,16 +66,20 @@ struct FitAcross {
 
 struct AddWeighted {
   BODYSCAN_KERNEL void run(int width, float weight, const float* row, float* sum) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) sum[x] += weight * row[x];
   }
 };
 
+// Takes a larger square's value where the smaller one's sigma, `gain_before` times the raw one, is too large.
 struct TakeFitted {
-  BODYSCAN_KERNEL void run(int width, float gain, const float* fitted, float* value, float* sigma) {
+  BODYSCAN_KERNEL void run(int width, float gain, float gain_before, float enough, const float* fitted,
+                           const float* raw_sigma, float* value, float* sigma) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
-      const bool known = fitted[x] == fitted[x];
-      value[x] = known ? fitted[x] : value[x];
-      sigma[x] = known ? gain * sigma[x] : sigma[x];
+      const bool take = (fitted[x] == fitted[x]) & (gain_before * raw_sigma[x] > enough);
+      value[x] = take ? fitted[x] : value[x];
+      sigma[x] = take ? gain * raw_sigma[x] : sigma[x];
     }
   }
 };
@@ -93,8 +100,20 @@ float pixels_per_unit(const FloatImage& coordinate) {
   return 1 / std::max(*middle, 1e-3F);
 }
 
-// Fits rows [first, last) of `raw` with one radius into `out`, whose values stay where the square is not whole.
-void fit_rows(const AxisCorrespondence& raw, const Weights& weights, int first, int last, AxisCorrespondence& out) {
+bool any_above(const AxisCorrespondence& raw, int first, int last, float sigma) {
+  for (int y = first; y < last; ++y) {
+    const float* coordinate = raw.coordinate.row(y);
+    const float* deviation = raw.sigma.row(y);
+    for (int x = 0; x < raw.coordinate.width(); ++x)
+      if (coordinate[x] == coordinate[x] && deviation[x] > sigma) return true;
+  }
+  return false;
+}
+
+// Fits rows [first, last) of `raw` with one radius into `out`, whose values stay where the square is not whole or
+// not needed: where gain_before times the raw sigma is `enough`.
+void fit_rows(const AxisCorrespondence& raw, const Weights& weights, float gain_before, float enough, int first,
+              int last, AxisCorrespondence& out) {
   const int width = raw.coordinate.width();
   const int height = raw.coordinate.height();
   const int r = weights.radius;
@@ -114,25 +133,50 @@ void fit_rows(const AxisCorrespondence& raw, const Weights& weights, int first, 
     for (int i = -r; i <= r; ++i)
       run_kernel<AddWeighted>(width, weights.at[static_cast<std::size_t>(i + r)],
                               static_cast<const float*>(across_row(y + i)), fitted.data());
-    run_kernel<TakeFitted>(width, weights.gain, static_cast<const float*>(fitted.data()), out.coordinate.row(y),
-                           out.sigma.row(y));
+    run_kernel<TakeFitted>(width, weights.gain, gain_before, enough, static_cast<const float*>(fitted.data()),
+                           raw.sigma.row(y), out.coordinate.row(y), out.sigma.row(y));
   }
+}
+
+// The radii tried, ascending; those above the wanted one only where noise demands.
+std::vector<Weights> make_sizes(const LocalFitOptions& options, float px_per_unit) {
+  const auto radius = [&](float half_width) {
+    return std::clamp(static_cast<int>(std::lround(half_width * px_per_unit)), 0, max_radius);
+  };
+  const int wanted = radius(options.half_width_px);
+  const int largest = radius(options.max_half_width_px);
+  std::vector<Weights> sizes;
+  for (int r = 2; r <= largest; r += r < wanted || r < 4 ? 1 : 2) sizes.emplace_back(r);
+  return sizes;
 }
 
 }  // namespace
 
-AxisCorrespondence fit_locally(AxisCorrespondence raw, float half_width) {
+Expected<void> LocalFitOptions::check() const {
+  if (!(half_width_px >= 0 && half_width_px <= max_half_width_px && max_half_width_px <= 20))
+    return tl::unexpected(Error{ErrorKind::usage, "the local fit's half width must lie in 0 to its maximum, that in 0 to 20"});
+  if (!(enough_sigma_px >= 0)) return tl::unexpected(Error{ErrorKind::usage, "enough_sigma_px must not be negative"});
+  return {};
+}
+
+AxisCorrespondence fit_locally(AxisCorrespondence raw, const LocalFitOptions& options) {
   const Size camera = raw.coordinate.size();
-  const float radius_px = half_width * pixels_per_unit(raw.coordinate);
-  const int radius = std::clamp(static_cast<int>(std::lround(radius_px)), 0, max_radius);
-  if (radius < 2 || camera.width <= 2 * radius || camera.height <= 2 * radius) return raw;
+  if (options.half_width_px == 0) return raw;
+  const float px_per_unit = pixels_per_unit(raw.coordinate);
+  const std::vector<Weights> sizes = make_sizes(options, px_per_unit);
+  if (sizes.empty() || std::min(camera.width, camera.height) <= 2 * sizes.back().radius) return raw;
+  const float wanted_radius = options.half_width_px * px_per_unit;
 
   AxisCorrespondence fitted{raw.coordinate.clone(), raw.sigma.clone()};
-  std::vector<Weights> sizes;
-  for (int r = 2; r <= radius; r = std::max(r + 1, std::min(2 * r, radius))) sizes.emplace_back(r);
   parallel_for(0, camera.height, 64, [&](int first, int last) {
-    AxisCorrespondence* out = &fitted;
-    for (const Weights& weights : sizes) fit_rows(raw, weights, first, last, *out);
+    float gain_before = 1;
+    for (const Weights& weights : sizes) {
+      const bool wanted = static_cast<float>(weights.radius) <= std::max(2.0F, wanted_radius + 0.5F);
+      const float enough = wanted ? 0 : options.enough_sigma_px;
+      if (!any_above(raw, first, last, enough / gain_before)) break;
+      fit_rows(raw, weights, gain_before, enough, first, last, fitted);
+      gain_before = weights.gain;
+    }
   });
   return fitted;
 }

@@ -22,7 +22,7 @@ constexpr int levels = StripePlanes::fine_bits;  // 0, 1 or 2 bits dropped
 struct RowBuffer {
   explicit RowBuffer(int width)
       : ratio(static_cast<std::size_t>(width)), deviation(ratio.size()), cell(ratio.size()),
-        coefficients(ratio.size() * EdgeProfile::terms) {}
+        coefficients(ratio.size() * EdgeProfile::kinds * EdgeProfile::terms) {}
   std::vector<float> ratio;
   std::vector<float> deviation;
   std::vector<std::uint16_t> cell;
@@ -52,17 +52,23 @@ struct Place {
   BODYSCAN_KERNEL void run(int begin, int end, int width, int dropped, const float* ratio,
                            const std::uint16_t* cell, const float* deviation, const float* coefficients,
                            float* coordinate, float* sigma) {
-    const float* c0 = coefficients;
-    const float* c1 = c0 + width;
-    const float* c2 = c1 + width;
-    const float* c3 = c2 + width;
+    const std::ptrdiff_t stride = width;
+    const std::ptrdiff_t other = stride * EdgeProfile::terms;
     const float scale = static_cast<float>(1 << dropped);
+    BODYSCAN_VECTORIZE
     for (int x = begin; x < end; ++x) {
       const float r = ratio[x];
       const float t = 2 * r - 1;
       const float hump = r * (1 - r);
-      const float bend = c0[x] + t * (c1[x] + t * (c2[x] + t * c3[x]));
-      const float bend_slope = 2 * (c1[x] + t * (2 * c2[x] + t * 3 * c3[x]));
+      const float* first = coefficients + x;
+      const float* second = first + other;
+      const bool kind = EdgeProfile::kind_of(cell[x]) != 0;
+      const float c0 = kind ? second[0] : first[0];
+      const float c1 = kind ? second[stride] : first[stride];
+      const float c2 = kind ? second[2 * stride] : first[2 * stride];
+      const float c3 = kind ? second[3 * stride] : first[3 * stride];
+      const float bend = c0 + t * (c1 + t * (c2 + t * c3));
+      const float bend_slope = 2 * (c1 + t * (2 * c2 + t * 3 * c3));
       const float from_fine = r + hump * bend;
       const float slope = 1 - t * bend + hump * bend_slope;
       // The finest bit changes at the lower edge of odd stripes and at the upper edge of even ones.
@@ -78,10 +84,10 @@ struct Place {
 AxisCorrespondence locate_stripes(const StripePlanes& planes, const Illumination& light, int count,
                                   const DecodeOptions& options) {
   const Size camera = light.contrast.size();
+  const NoiseModel noise = measure_noise(planes, light.contrast);
   const StripeResolution resolution =
-      find_stripe_resolution(planes, light.contrast, options.max_dropped_bits);
-  const EdgeRatioLimits limits{options.min_direct_share, options.min_signal_to_noise,
-                               measure_noise(planes, light.contrast), count};
+      find_stripe_resolution(planes, light.contrast, noise, options.max_dropped_bits);
+  const EdgeRatioLimits limits{options.min_direct_share, options.min_signal_to_noise, noise, count};
 
   std::vector<EdgeProfile::Histogram> histograms;
   for (int dropped = 0; dropped < levels; ++dropped) histograms.emplace_back(camera);
@@ -93,13 +99,15 @@ AxisCorrespondence locate_stripes(const StripePlanes& planes, const Illumination
         measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(), buffer.cell.data(),
                            buffer.deviation.data());
         for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
-          histograms[static_cast<std::size_t>(dropped)].add_run(y, begin, end, buffer.ratio.data());
+          histograms[static_cast<std::size_t>(dropped)].add_run(y, begin, end, buffer.ratio.data(),
+                                                                    buffer.cell.data());
         });
       }
     }
   });
   std::vector<EdgeProfile> profiles;
-  for (const auto& histogram : histograms) profiles.emplace_back(histogram);
+  for (int dropped = 0; dropped < levels; ++dropped)
+    profiles.emplace_back(histograms[static_cast<std::size_t>(dropped)], dropped);
 
   AxisCorrespondence result{FloatImage(camera), FloatImage(camera)};
   parallel_for(0, camera.height, EdgeProfile::tile_px, [&](int first, int last) {

@@ -11,6 +11,7 @@ namespace {
 struct AddFineBit {
   BODYSCAN_KERNEL void run(int width, int bit, const std::int16_t* difference, std::uint16_t* gray,
                            std::int16_t* fine) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
       gray[x] = static_cast<std::uint16_t>(gray[x] | ((difference[x] > 0 ? 1U : 0U) << bit));
       fine[x] = difference[x];
@@ -21,6 +22,7 @@ struct AddFineBit {
 struct AddCoarseBit {
   BODYSCAN_KERNEL void run(int width, int bit, const std::int16_t* difference, std::uint16_t* gray,
                            std::uint16_t* coarse) {
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
       gray[x] = static_cast<std::uint16_t>(gray[x] | ((difference[x] > 0 ? 1U : 0U) << bit));
       const auto size = static_cast<std::uint16_t>(difference[x] < 0 ? -difference[x] : difference[x]);

@@ -2,58 +2,80 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
 
-const float keep_ratio = getenv("KR") ? (float)atof(getenv("KR")) : 0.5F;
+constexpr float keep_ratio = 0.25F;
 
-using Sums = std::array<float, StripePlanes::fine_bits>;  // of |difference| of bits 0, 1, 2
+// Mean squares over a block's lit pixels: the differences of bits 0, 1, 2, then white minus black, which stands for
+// all bits beyond.
+struct Energy {
+  std::array<float, StripePlanes::fine_bits + 1> squares{};
+  float noise = 0;
+};
 
-Image<Sums> sum_blocks(const StripePlanes& planes, const Image<std::uint16_t>& contrast) {
+void add_row(const StripePlanes& planes, const std::uint16_t* contrast, const NoiseModel& noise, int y, int begin,
+             int end, Energy& energy) {
+  for (std::size_t bit = 0; bit < planes.fine.size(); ++bit) {
+    const std::int16_t* fine = planes.fine[bit].row(y);
+    float sum = 0;
+    for (int x = begin; x < end; ++x) {
+      const float value = contrast[x] > 0 ? static_cast<float>(fine[x]) : 0;
+      sum += value * value;
+    }
+    energy.squares[bit] += sum;
+  }
+  for (int x = begin; x < end; ++x) {
+    const float value = static_cast<float>(contrast[x]);
+    energy.squares.back() += value * value;
+    energy.noise += value > 0 ? noise.variance(value) : 0;
+  }
+}
+
+Image<Energy> measure_blocks(const StripePlanes& planes, const Image<std::uint16_t>& contrast,
+                             const NoiseModel& noise) {
   constexpr int block = StripeResolution::block_px;
   const Size camera = contrast.size();
-  Image<Sums> sums({(camera.width + block - 1) / block, (camera.height + block - 1) / block}, Sums{});
-  parallel_for(0, sums.height(), 1, [&](int begin, int end) {
+  Image<Energy> blocks({(camera.width + block - 1) / block, (camera.height + block - 1) / block}, Energy{});
+  parallel_for(0, blocks.height(), 1, [&](int begin, int end) {
     for (int y = begin * block; y < std::min(end * block, camera.height); ++y) {
-      Sums* row = sums.row(y / block);
-      for (std::size_t bit = 0; bit < planes.fine.size(); ++bit) {
-        const std::int16_t* fine = planes.fine[bit].row(y);
-        const std::uint16_t* lit = contrast.row(y);
-        for (int bx = 0; bx < sums.width(); ++bx) {
-          int sum = 0;
-          for (int x = bx * block; x < std::min((bx + 1) * block, camera.width); ++x)
-            sum += lit[x] > 0 ? std::abs(static_cast<int>(fine[x])) : 0;
-          row[bx][bit] += static_cast<float>(sum);
-        }
-      }
+      for (int bx = 0; bx < blocks.width(); ++bx)
+        add_row(planes, contrast.row(y), noise, y, bx * block, std::min((bx + 1) * block, camera.width),
+                blocks(bx, y / block));
     }
   });
-  return sums;
+  return blocks;
+}
+
+Energy sum_around(const Image<Energy>& blocks, int bx, int by) {
+  Energy sum;
+  for (int y = std::max(0, by - 1); y <= std::min(blocks.height() - 1, by + 1); ++y) {
+    for (int x = std::max(0, bx - 1); x <= std::min(blocks.width() - 1, bx + 1); ++x) {
+      const Energy& energy = blocks(x, y);
+      for (std::size_t i = 0; i < sum.squares.size(); ++i) sum.squares[i] += energy.squares[i];
+      sum.noise += energy.noise;
+    }
+  }
+  return sum;
 }
 
 }  // namespace
 
 StripeResolution find_stripe_resolution(const StripePlanes& planes, const Image<std::uint16_t>& contrast,
-                                        int max_dropped_bits) {
-  const Image<Sums> sums = sum_blocks(planes, contrast);
+                                        const NoiseModel& noise, int max_dropped_bits) {
+  const Image<Energy> blocks = measure_blocks(planes, contrast, noise);
   const int droppable = std::min({max_dropped_bits, StripePlanes::fine_bits - 1, planes.bit_count - 2});
-  StripeResolution resolution{Image<std::uint8_t>(sums.size(), 0)};
-  for (int by = 0; by < sums.height(); ++by) {
-    for (int bx = 0; bx < sums.width(); ++bx) {
-      Sums around{};
-      for (int y = std::max(0, by - 1); y <= std::min(sums.height() - 1, by + 1); ++y)
-        for (int x = std::max(0, bx - 1); x <= std::min(sums.width() - 1, bx + 1); ++x)
-          for (std::size_t bit = 0; bit < around.size(); ++bit) around[bit] += sums(x, y)[bit];
-      int dropped = 0;
-      for (int bit = 0; bit < droppable; ++bit) {
-        const auto b = static_cast<std::size_t>(bit);
-        if (around[b] < keep_ratio * around[b + 1]) dropped = bit + 1;
-      }
-      resolution.dropped(bx, by) = static_cast<std::uint8_t>(dropped);
+  StripeResolution resolution{Image<std::uint8_t>(blocks.size(), 0)};
+  for (int by = 0; by < blocks.height(); ++by) {
+    for (int bx = 0; bx < blocks.width(); ++bx) {
+      const Energy energy = sum_around(blocks, bx, by);
+      std::uint8_t& dropped = resolution.dropped(bx, by);
+      for (std::size_t bit = 0; bit < static_cast<std::size_t>(droppable); ++bit)
+        if (energy.squares[bit] - energy.noise < keep_ratio * keep_ratio * (energy.squares[bit + 2] - energy.noise))
+          dropped = static_cast<std::uint8_t>(bit + 1);
     }
   }
   return resolution;

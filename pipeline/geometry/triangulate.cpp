@@ -44,6 +44,7 @@ struct Rays {
   BODYSCAN_KERNEL void run(const LensParameters* lens, int y, int width, float* ray_x, float* ray_y) {
     const Distortion<float> distortion = lens->distortion;
     const float yd = (static_cast<float>(y) - lens->cy) / lens->fy;
+    BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
       const float xd = (static_cast<float>(x) - lens->cx) / lens->fx;
       float xi = xd;
@@ -74,6 +75,7 @@ struct Depths {
                            const float* ray_x, const float* ray_y, float* depth, float* sigma) {
     const Scene s = *scene;
     const LensParameters& p = s.projector;
+    BODYSCAN_VECTORIZE
     for (int i = 0; i < width; ++i) {
       const float qx = s.r[0][0] * ray_x[i] + s.r[0][1] * ray_y[i] + s.r[0][2];
       const float qy = s.r[1][0] * ray_x[i] + s.r[1][1] * ray_y[i] + s.r[1][2];

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <variant>
-
 #include "pipeline/base/image.hpp"
 #include "pipeline/pattern/sequence.hpp"
+
+#include <variant>
 
 namespace bodyscan {
 

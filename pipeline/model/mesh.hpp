@@ -1,11 +1,11 @@
 #pragma once
 
+#include "pipeline/base/image.hpp"
+#include "pipeline/geometry/point_grid.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include "pipeline/base/image.hpp"
-#include "pipeline/geometry/point_grid.hpp"
 
 namespace bodyscan {
 

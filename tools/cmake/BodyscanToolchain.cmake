@@ -14,7 +14,7 @@ if(CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
-                    -march=x86-64-v2 -ffunction-sections -fdata-sections)
+                    -march=x86-64-v2 -fno-math-errno -fno-trapping-math -ffunction-sections -fdata-sections)
 add_link_options(-static-libstdc++ -static-libgcc -Wl,--gc-sections -Wl,--as-needed -Wl,-z,relro,-z,now
                  -Wl,--exclude-libs,ALL)
 include_directories(${CMAKE_SOURCE_DIR})
