@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "pipeline/base/image.hpp"
+#include "pipeline/image/tone_response.hpp"
 
 namespace bodyscan {
 
@@ -17,6 +18,7 @@ struct Correspondence {
   Size projector;
   std::optional<AxisCorrespondence> rows;
   std::optional<AxisCorrespondence> columns;
+  ToneResponse response;           // that the frames were read with
   std::size_t pixels_lit = 0;      // bright enough in white minus black
   std::size_t pixels_decoded = 0;  // every axis of the sequence decided
 };

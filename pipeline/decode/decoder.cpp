@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/decode/camera_blur.hpp"
 #include "pipeline/decode/local_fit.hpp"
 #include "pipeline/decode/locate_stripes.hpp"
 #include "pipeline/decode/response.hpp"
@@ -81,41 +82,67 @@ Expected<void> Decoder::consume(const Frame& frame) {
   const Pattern& expected = sequence_.patterns[next_];
   if (frame.pattern != expected)
     return input_error("expected the frame of pattern " + describe(expected) + ", got " + describe(frame.pattern));
-  if (next_ > 0 && (size_of(frame.luma) != size_of(held_) || frame.luma.index() != held_.index()))
+  if (next_ > 0 && (size_of(frame.luma) != camera_ || frame.luma.index() != depth_))
     return input_error("the frame of pattern " + describe(expected) + " differs from the first in size or depth");
+  camera_ = size_of(frame.luma);
+  depth_ = frame.luma.index();
   ++next_;
-  if (frame.pattern.kind != PatternKind::gray) return consume_white_black(frame);
-  consume_bit(frame);
-  return {};
+  return frame.pattern.kind == PatternKind::gray ? consume_bit(frame) : consume_white_black(frame);
 }
 
 Expected<void> Decoder::consume_white_black(const Frame& frame) {
   if (frame.pattern.kind == PatternKind::white) {
-    linear_ = linear_table(options_.response, std::holds_alternative<GrayImage8>(frame.luma) ? 8 : 16);
-    copy_luma(frame.luma, held_);
+    copy_luma(frame.luma, white_);
     return {};
   }
-  auto light = measure_illumination(held_, frame.luma, options_.min_contrast, linear_);
-  if (!light) return tl::unexpected(light.error());
-  light_ = std::move(*light);
-  if (!inverses_) middle_ = sum_linear(held_, frame.luma, linear_);
+  copy_luma(frame.luma, black_);
+  response_settled_ = options_.response.has_value() || !inverses_;
+  auto used = use_response(options_.response.value_or(ToneResponse{}));
+  if (!used) return used;
+  if (!inverses_) middle_ = sum_linear(white_, black_, linear_);
   return {};
 }
 
-void Decoder::consume_bit(const Frame& frame) {
+Expected<void> Decoder::use_response(const ToneResponse& response) {
+  response_ = response;
+  linear_ = linear_table(response, std::holds_alternative<GrayImage8>(white_) ? 8 : 16);
+  auto light = measure_illumination(white_, black_, options_.min_contrast, linear_);
+  if (!light) return tl::unexpected(light.error());
+  light_ = std::move(*light);
+  if (response_settled_) {
+    white_ = {};
+    black_ = {};
+  }
+  return {};
+}
+
+// A bit that could not tell has no edge on the subject, so what it left in the planes does not matter.
+Expected<void> Decoder::settle_response(const Luma& pattern, const Luma& inverse) {
+  if (response_settled_) return {};
+  const ResponseTest test = test_response(white_, black_, pattern, inverse);
+  if (test.samples == 0) return {};
+  response_settled_ = true;
+  for (auto* planes : {&rows_, &columns_})
+    if (test.instead && *planes) (*planes)->restart_coarse();
+  return use_response(test.instead.value_or(response_));
+}
+
+Expected<void> Decoder::consume_bit(const Frame& frame) {
   const Pattern& pattern = frame.pattern;
   auto& planes = planes_of(pattern.axis);
   if (!planes) {
     const Size projector = sequence_.projector;
-    planes.emplace(size_of(frame.luma),
-                   gray_bits(pattern.axis == Axis::row ? projector.height : projector.width));
+    planes.emplace(camera_, gray_bits(pattern.axis == Axis::row ? projector.height : projector.width));
   }
-  if (!inverses_)
+  if (!inverses_) {
     planes->add_against(pattern.bit, frame.luma, middle_, linear_);
-  else if (pattern.inverted)
+  } else if (pattern.inverted) {
+    if (auto settled = settle_response(held_, frame.luma); !settled) return settled;
     planes->add(pattern.bit, held_, frame.luma, linear_);
-  else
+  } else {
     copy_luma(frame.luma, held_);
+  }
+  return {};
 }
 
 Expected<Correspondence> Decoder::finish() {
@@ -125,15 +152,19 @@ Expected<Correspondence> Decoder::finish() {
                        .projector = sequence_.projector,
                        .rows = {},
                        .columns = {},
+                       .response = response_,
                        .pixels_lit = light_.pixels_lit,
                        .pixels_decoded = 0};
   held_ = {};
+  white_ = {};
+  black_ = {};
   middle_ = {};
   const auto locate = [&](std::optional<StripePlanes>& planes, int count,
                           std::optional<AxisCorrespondence>& axis) {
     if (!planes) return;
     AxisCorrespondence raw = locate_stripes(*planes, light_, count, options_);
     planes.reset();
+    correct_camera_blur(raw, light_.contrast, options_.min_neighbour_share);
     axis = fit_locally(std::move(raw), options_.fit);
   };
   locate(rows_, sequence_.projector.height, found.rows);

@@ -31,15 +31,23 @@ class Decoder {
   Decoder(PatternSequence sequence, const DecodeOptions& options);
 
   Expected<void> consume_white_black(const Frame& frame);
-  void consume_bit(const Frame& frame);
+  Expected<void> consume_bit(const Frame& frame);
+  Expected<void> settle_response(const Luma& pattern, const Luma& inverse);
+  Expected<void> use_response(const ToneResponse& response);
   std::optional<StripePlanes>& planes_of(Axis axis) { return axis == Axis::row ? rows_ : columns_; }
 
   PatternSequence sequence_;
   DecodeOptions options_;
   bool inverses_ = false;
   std::size_t next_ = 0;
+  Size camera_;
+  std::size_t depth_ = 0;  // index of Luma
+  ToneResponse response_;
+  bool response_settled_ = false;
   std::vector<std::uint16_t> linear_;
-  Luma held_;                      // white until black comes, a pattern until its inverse comes
+  Luma white_;                     // white and black stay until the response is settled
+  Luma black_;
+  Luma held_;                      // a pattern until its inverse comes
   Image<std::uint16_t> middle_;    // white plus black, for sequences without inverses
   Illumination light_;
   std::optional<StripePlanes> rows_;

@@ -23,7 +23,7 @@ float robust_variance(std::vector<float>& departures) {
   for (float& value : departures) value = std::abs(value - center);
   std::nth_element(departures.begin(), middle, departures.end());
   const float deviation = 1.4826F * *middle;
-  return deviation * deviation / 2;  // of one difference; two went in
+  return deviation * deviation / 4;  // of one difference; four went in
 }
 
 }  // namespace
@@ -34,11 +34,13 @@ NoiseModel measure_noise(const StripePlanes& planes, const Image<std::uint16_t>&
   if (second.empty()) return unmeasured;
 
   std::array<std::vector<float>, bins> departures;
+  constexpr int step = StripePlanes::plateau_step;
   std::size_t i = 0;
-  for (int y = 0; y < contrast.height(); y += StripePlanes::plateau_step) {
-    for (int x = 0; x < contrast.width(); x += StripePlanes::plateau_step, ++i) {
+  for (int y = 0; y < contrast.height(); y += step) {
+    for (int x = 0; x < contrast.width(); x += step, ++i) {
+      if (x == 0 || contrast(x, y) == 0 || contrast(x - step, y) == 0) continue;
       const auto bin = static_cast<std::size_t>(contrast(x, y) * bins / (linear_full_scale + 1));
-      if (contrast(x, y) > 0) departures[bin].push_back(static_cast<float>(first[i] - second[i]));
+      departures[bin].push_back(static_cast<float>((first[i] - second[i]) - (first[i - 1] - second[i - 1])));
     }
   }
 

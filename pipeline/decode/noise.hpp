@@ -16,9 +16,9 @@ struct NoiseModel {
   [[nodiscard]] float variance(float contrast) const { return constant + slope * contrast; }
 };
 
-// Measured on the capture itself: far from an edge the two coarsest bits differ by the same amount, so the
-// spread of their quotient's departure from one is noise (median absolute deviation, so that pixels near an
-// edge do not count). `contrast` as of Illumination.
+// Measured on the capture itself: far from an edge the two coarsest bits differ from their inverses by the same
+// amount, up to scattered light, which varies slowly. What is left of that between neighbouring samples is noise
+// (median absolute deviation, so that pixels near an edge do not count). `contrast` as of Illumination.
 NoiseModel measure_noise(const StripePlanes& planes, const Image<std::uint16_t>& contrast);
 
 }  // namespace bodyscan

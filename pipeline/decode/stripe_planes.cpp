@@ -1,5 +1,6 @@
 #include "pipeline/decode/stripe_planes.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
 
@@ -50,6 +51,11 @@ void subtract_middle(int width, const Pixel* pattern, const std::uint16_t* middl
 StripePlanes::StripePlanes(Size camera, int count)
     : bit_count(count), gray(camera, 0), coarse(camera, std::numeric_limits<std::uint16_t>::max()) {
   for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
+}
+
+void StripePlanes::restart_coarse() {
+  std::fill_n(coarse.data(), coarse.size().area(), std::numeric_limits<std::uint16_t>::max());
+  for (auto& samples : plateau) samples.clear();
 }
 
 void StripePlanes::add_row(int bit, int y, const std::int16_t* difference) {

@@ -31,6 +31,9 @@ struct StripePlanes {
   void add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
                    std::span<const std::uint16_t> linear);
 
+  // Forgets the coarse differences so far (not the bits): they were taken under another response.
+  void restart_coarse();
+
  private:
   void add_row(int bit, int y, const std::int16_t* difference);
 };

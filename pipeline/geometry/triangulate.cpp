@@ -49,6 +49,7 @@ struct Rays {
       const float xd = (static_cast<float>(x) - lens->cx) / lens->fx;
       float xi = xd;
       float yi = yd;
+      BODYSCAN_UNROLL
       for (int i = 0; i < newton_steps; ++i) {
         const auto at = distortion(xi, yi);
         const float scale = 1 / (at.x_by_x * at.y_by_y - at.x_by_y * at.x_by_y);
@@ -101,6 +102,7 @@ struct Depths {
       float row_error = 0;
       float column_error = 0;
       float behind = 0;
+      BODYSCAN_UNROLL
       for (int step = 0; step <= newton_steps; ++step) {
         const float pz = z * qz + s.t[2];
         const float inverse = 1 / pz;

@@ -9,7 +9,7 @@
 namespace bodyscan::vrml {
 namespace {
 
-constexpr std::size_t window_bytes = std::size_t{1} << 18;
+constexpr std::size_t window_bytes = std::size_t{1} << 16;
 constexpr std::size_t max_number_bytes = 64;
 constexpr std::size_t max_word_bytes = 256;
 
@@ -46,20 +46,25 @@ std::string named(char character) {
 }  // namespace
 
 Scanner::Scanner(Source source)
-    : source_(std::move(source)), window_(window_bytes + 1), next_(window_.data()), end_(window_.data()) {}
+    : source_(std::move(source)),
+      window_(std::make_unique_for_overwrite<char[]>(window_bytes + 1)),
+      next_(window_.get()),
+      end_(next_) {
+  window_[0] = '\0';
+}
 
 // Moves what is left to the front and reads more behind it; false if there is no more.
 bool Scanner::refill() {
   if (exhausted_) return false;
   const std::size_t kept = left();
-  std::memmove(window_.data(), next_, kept);
-  next_ = window_.data();
+  std::memmove(window_.get(), next_, kept);
+  next_ = window_.get();
   end_ = next_ + kept;
-  Expected<std::size_t> count = source_(std::span(window_).subspan(kept, window_bytes - kept));
+  Expected<std::size_t> count = source_({window_.get() + kept, window_bytes - kept});
   if (!count && !error_) error_ = count.error();
   exhausted_ = !count || *count == 0;
   end_ += count.value_or(0);
-  window_[static_cast<std::size_t>(end_ - window_.data())] = '\0';
+  window_[left()] = '\0';
   return !exhausted_;
 }
 

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace bodyscan::vrml {
 
@@ -58,7 +58,7 @@ class Scanner {
   [[nodiscard]] std::size_t left() const { return static_cast<std::size_t>(end_ - next_); }
 
   Source source_;
-  std::vector<char> window_;  // a 0 follows the text in it
+  std::unique_ptr<char[]> window_;  // a 0 follows the text in it
   const char* next_;
   const char* end_;
   std::size_t line_ = 1;

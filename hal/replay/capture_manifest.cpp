@@ -1,0 +1,225 @@
+#include "hal/replay/capture_manifest.hpp"
+
+#include "hal/replay/json_node.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace bodyscan {
+namespace {
+
+constexpr int max_projector_side = 1 << 15;
+
+Expected<int> projector_side(const JsonNode& node) {
+  return json_integer(node).and_then([&](std::int64_t side) -> Expected<int> {
+    if (side < 2 || side > max_projector_side)
+      return node.error(std::to_string(side) + " does not lie in 2 to " + std::to_string(max_projector_side));
+    return static_cast<int>(side);
+  });
+}
+
+Expected<Size> projector_size(const JsonNode& node) {
+  if (!node.value->is_object()) return node.error("not an object");
+  const Expected<int> width = required(node, "width", projector_side);
+  if (!width) return tl::unexpected(width.error());
+  const Expected<int> height = required(node, "height", projector_side);
+  if (!height) return tl::unexpected(height.error());
+  return Size{*width, *height};
+}
+
+bool is_plain_name(std::string_view name) {
+  const bool control = std::any_of(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; });
+  return !name.empty() && name != "." && name != ".." && !control &&
+         name.find_first_of("/\\") == std::string_view::npos;
+}
+
+Expected<std::string> plain_name(const JsonNode& node) {
+  Expected<std::string> name = json_text(node);
+  if (name && !is_plain_name(*name)) return node.error("not a plain file name inside the folder");
+  return name;
+}
+
+Expected<Axis> axis(const JsonNode& node) {
+  return json_text(node).and_then([&](const std::string& name) -> Expected<Axis> {
+    if (name == "row") return Axis::row;
+    if (name == "column") return Axis::column;
+    return node.error("\"" + name + "\" is neither row nor column");
+  });
+}
+
+int count_along(Axis axis, Size projector) {
+  return axis == Axis::row ? projector.height : projector.width;
+}
+
+Expected<Pattern> gray_pattern(const JsonNode& frame, Size projector) {
+  Pattern pattern{.kind = PatternKind::gray};
+  const Expected<Axis> along = required(frame, "axis", axis);
+  if (!along) return tl::unexpected(along.error());
+  pattern.axis = *along;
+
+  const Expected<JsonNode> bit_node = frame.member("bit");
+  const Expected<std::int64_t> bit = bit_node.and_then(json_integer);
+  if (!bit) return tl::unexpected(bit.error());
+  const int count = count_along(*along, projector);
+  if (*bit < 0 || *bit >= gray_bits(count))
+    return bit_node->error(std::to_string(*bit) + " does not exist for " + std::to_string(count) +
+                           (*along == Axis::row ? " rows" : " columns"));
+  pattern.bit = static_cast<int>(*bit);
+
+  if (frame.has("inverted")) {
+    const Expected<bool> inverted = json_boolean(frame.optional("inverted"));
+    if (!inverted) return tl::unexpected(inverted.error());
+    pattern.inverted = *inverted;
+  }
+  return pattern;
+}
+
+Expected<Pattern> pattern_of(const JsonNode& frame, Size projector) {
+  const Expected<JsonNode> node = frame.member("pattern");
+  const Expected<std::string> name = node.and_then(json_text);
+  if (!name) return tl::unexpected(name.error());
+  if (*name == "white") return Pattern{.kind = PatternKind::white};
+  if (*name == "black") return Pattern{.kind = PatternKind::black};
+  if (*name == "gray") return gray_pattern(frame, projector);
+  return node->error("\"" + *name + "\" is not a pattern that can be decoded (white, black, gray)");
+}
+
+Expected<ManifestFrame> frame_of(const JsonNode& node, Size projector) {
+  if (!node.value->is_object()) return node.error("not an object");
+  ManifestFrame frame;
+  Expected<std::string> file = required(node, "file", plain_name);
+  if (!file) return tl::unexpected(file.error());
+  frame.file = std::move(*file);
+  const Expected<Pattern> pattern = pattern_of(node, projector);
+  if (!pattern) return tl::unexpected(pattern.error());
+  frame.pattern = *pattern;
+  if (Expected<void> read = read_if_present(node, "timestamp_us", json_integer, frame.timestamp_us); !read)
+    return tl::unexpected(read.error());
+  return frame;
+}
+
+auto decode_order(const Pattern& pattern) {
+  return std::tuple(pattern.kind, pattern.axis, -pattern.bit, pattern.inverted);
+}
+
+Expected<std::vector<ManifestFrame>> frames_of(const JsonNode& node, Size projector) {
+  if (!node.value->is_array()) return node.error("not an array");
+  std::vector<ManifestFrame> frames;
+  for (std::size_t i = 0; i < node.value->size(); ++i) {
+    const JsonNode item{&(*node.value)[i], node.place + "[" + std::to_string(i) + "]"};
+    Expected<ManifestFrame> frame = frame_of(item, projector);
+    if (!frame) return tl::unexpected(frame.error());
+    const auto same = std::find_if(frames.begin(), frames.end(),
+                                   [&](const ManifestFrame& f) { return f.pattern == frame->pattern; });
+    if (same != frames.end())
+      return item.error(describe(frame->pattern) + " again, after frames[" +
+                        std::to_string(same - frames.begin()) + "]");
+    frames.push_back(std::move(*frame));
+  }
+  std::sort(frames.begin(), frames.end(), [](const ManifestFrame& a, const ManifestFrame& b) {
+    return decode_order(a.pattern) < decode_order(b.pattern);
+  });
+  return frames;
+}
+
+bool shows(const std::vector<ManifestFrame>& frames, const Pattern& pattern) {
+  return std::any_of(frames.begin(), frames.end(),
+                     [&](const auto& frame) { return frame.pattern == pattern; });
+}
+
+Expected<void> check_axis(const std::vector<ManifestFrame>& frames, Axis axis, Size projector) {
+  const auto of_axis = [&](const ManifestFrame& frame) {
+    return frame.pattern.kind == PatternKind::gray && frame.pattern.axis == axis;
+  };
+  if (std::none_of(frames.begin(), frames.end(), of_axis)) return {};
+  const bool inverses = std::any_of(frames.begin(), frames.end(), [&](const ManifestFrame& frame) {
+    return of_axis(frame) && frame.pattern.inverted;
+  });
+  for (int bit = gray_bits(count_along(axis, projector)) - 1; bit >= 0; --bit) {
+    for (const bool inverted : {false, true}) {
+      if (inverted && !inverses) continue;
+      const Pattern pattern{PatternKind::gray, axis, bit, inverted};
+      if (!shows(frames, pattern))
+        return input_error("frames: " + describe(pattern) + " is missing" +
+                           (inverted ? " (other inverses are there)" : ""));
+    }
+  }
+  return {};
+}
+
+Expected<void> check_complete(const std::vector<ManifestFrame>& frames, Size projector) {
+  for (const PatternKind kind : {PatternKind::white, PatternKind::black})
+    if (!shows(frames, {.kind = kind}))
+      return input_error("frames: " + describe({.kind = kind}) + " is missing");
+  for (const Axis axis : {Axis::row, Axis::column})
+    if (Expected<void> complete = check_axis(frames, axis, projector); !complete) return complete;
+  if (frames.size() <= 2) return input_error("frames: there is no gray pattern");
+  return {};
+}
+
+Expected<ToneResponse> response_of(const JsonNode& node) {
+  using Kind = ToneResponse::Kind;
+  if (node.value->is_number())
+    return json_positive(node).map([](double gamma) { return ToneResponse{Kind::gamma, gamma}; });
+  const auto name = json_text(node).value_or("");
+  if (name == "srgb") return ToneResponse{Kind::srgb};
+  if (name == "linear") return ToneResponse{Kind::linear};
+  return node.error("neither \"srgb\", \"linear\" nor a gamma");
+}
+
+Expected<void> check_format(const JsonNode& root) {
+  if (!root.value->is_object()) return input_error("not a JSON object");
+  const Expected<std::string> format = required(root, "format", json_text);
+  if (!format) return tl::unexpected(format.error());
+  if (*format != "bodyscan-capture")
+    return input_error("format: \"" + *format + "\" is not bodyscan-capture");
+  const Expected<std::int64_t> version = required(root, "version", json_integer);
+  if (!version) return tl::unexpected(version.error());
+  if (*version != 1) return input_error("version: " + std::to_string(*version) + " is not 1");
+  return {};
+}
+
+Expected<void> read_optional_keys(const JsonNode& root, CaptureManifest& manifest) {
+  const Expected<void> good = {};
+  if (root.has("response")) {
+    const Expected<ToneResponse> response = response_of(root.optional("response"));
+    if (!response) return tl::unexpected(response.error());
+    manifest.response = *response;
+  }
+  return good.and_then([&] { return read_if_present(root, "camera", json_text, manifest.camera); })
+      .and_then([&] { return read_if_present(root, "exposure_us", json_positive, manifest.exposure_us); })
+      .and_then([&] { return read_if_present(root, "iso", json_positive, manifest.iso); })
+      .and_then([&] { return read_if_present(root, "aperture", json_positive, manifest.aperture); })
+      .and_then([&] { return read_if_present(root, "captured_at", json_text, manifest.captured_at); });
+}
+
+Expected<CaptureManifest> manifest_of(const JsonNode& root) {
+  if (Expected<void> format = check_format(root); !format) return tl::unexpected(format.error());
+  CaptureManifest manifest;
+  const Expected<Size> projector = required(root, "projector", projector_size);
+  if (!projector) return tl::unexpected(projector.error());
+  manifest.projector = *projector;
+  Expected<std::vector<ManifestFrame>> frames =
+      required(root, "frames", [&](const JsonNode& node) { return frames_of(node, *projector); });
+  if (!frames) return tl::unexpected(frames.error());
+  manifest.frames = std::move(*frames);
+  if (Expected<void> complete = check_complete(manifest.frames, *projector); !complete)
+    return tl::unexpected(complete.error());
+  if (Expected<void> read = read_optional_keys(root, manifest); !read) return tl::unexpected(read.error());
+  return manifest;
+}
+
+}  // namespace
+
+Expected<CaptureManifest> parse_manifest(std::string_view text, const std::string& name) {
+  if (text.size() > max_manifest_bytes)
+    return input_error(name + ": over the limit of " + std::to_string(max_manifest_bytes) + " bytes");
+  return parse_json(text)
+      .and_then([](const nlohmann::json& document) {
+        return manifest_of({&document, ""});
+      })
+      .map_error([&](const Error& error) { return error.within(name); });
+}
+
+}  // namespace bodyscan
