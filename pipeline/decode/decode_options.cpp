@@ -12,6 +12,7 @@ Expected<void> DecodeOptions::check() const {
   if (!(min_signal_to_noise >= 0)) return refuse("min_signal_to_noise must not be negative");
   if (max_dropped_bits < 0 || max_dropped_bits >= StripePlanes::fine_bits)
     return refuse("max_dropped_bits must be 0, 1 or 2");
+  if (!(max_sigma_px > 0)) return refuse("max_sigma_px must be positive");
   if (response && response->kind == ToneResponse::Kind::gamma && !(response->gamma >= 0.1 && response->gamma <= 10))
     return refuse("gamma must lie in 0.1 to 10");
   return fit.check();

@@ -14,12 +14,12 @@ namespace bodyscan {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-constexpr int max_radius = 8;
+constexpr int max_radius = 12;
 
 // Second difference, in projector px, above which neighbours do not lie on one smooth surface; a bump of 0.5 mm
 // on 2 mm makes 0.1 px at 3 camera px a mm.
 constexpr float max_bend = 0.2F;
-constexpr float max_bend_sigmas = 5;
+constexpr float max_bend_sigmas = 12;  // five of a second difference, whose deviation is sqrt(6) times a value's
 
 // Weights of the value at the middle of a quadratic fitted to 2 radius + 1 equidistant values.
 struct Weights {

@@ -1,20 +1,25 @@
 #include "pipeline/preview/coarse_mesh.hpp"
 
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
-
-#include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
 
 using Eigen::Vector3f;
 
-// Neighbouring vertices are joined up to this depth difference in units of their distance across (79 degrees).
-constexpr float max_slope = 5;
+// Neighbouring vertices are joined up to this depth difference in units of their distance across (76
+// degrees): what is steeper is ragged, and a turned view shows it.
+constexpr float max_slope = 4;
+
+// Points of a block lie on one surface if their depths differ by less than this share.
+constexpr float same_surface = 0.01F;
 
 // The transfer curve's exponent; close enough for a picture.
 constexpr float gamma = 2.2F;
@@ -25,7 +30,9 @@ struct Block {
   int count = 0;
 };
 
-Vector3f vector(const Point3f& p) { return {p.x, p.y, p.z}; }
+Vector3f vector(const Point3f& p) {
+  return {p.x, p.y, p.z};
+}
 
 // The vertices of one row of blocks.
 class BlockRow {
@@ -35,7 +42,8 @@ class BlockRow {
     if (!colors) return;
     const auto width = static_cast<std::size_t>(mesh.size().width);
     colors_.resize(width * static_cast<std::size_t>(bottom_ - top_));
-    for (int y = top_; y < bottom_; ++y) colors->row(y, colors_.data() + width * static_cast<std::size_t>(y - top_));
+    for (int y = top_; y < bottom_; ++y)
+      colors->row(y, colors_.data() + width * static_cast<std::size_t>(y - top_));
   }
 
   [[nodiscard]] Block block(int i) const {
@@ -43,12 +51,11 @@ class BlockRow {
     const int right = std::min(left + step_, mesh_.size().width);
     Block block;
     const float depth = middle_depth(left, right);
-    const float reach = max_slope * static_cast<float>(step_) * footprint_share * depth;
     for (int y = top_; y < bottom_; ++y) {
       for (int x = left; x < right; ++x) {
         if (!mesh_.has(x, y)) continue;
         const Point3f& point = mesh_.grid().points(x, y);
-        if (std::abs(point.z - depth) > reach) continue;
+        if (std::abs(point.z - depth) > same_surface * depth) continue;
         block.position += vector(point);
         block.color += color(x, y);
         ++block.count;
@@ -61,9 +68,6 @@ class BlockRow {
   }
 
  private:
-  // A pixel's side in units of depth, for the wide end of the lenses in use: only a bound on what is averaged.
-  static constexpr float footprint_share = 1 / 1500.F;
-
   [[nodiscard]] float middle_depth(int left, int right) const {
     const int mid_x = (left + right) / 2;
     const int mid_y = (top_ + bottom_) / 2;
@@ -131,7 +135,8 @@ class Joiner {
     if (p < 0 || q < 0 || r < 0) return;
     if (!joined(at(p), at(q)) || !joined(at(q), at(r)) || !joined(at(r), at(p))) return;
     const Vector3f normal = (at(q) - at(p)).cross(at(r) - at(p));
-    for (const std::int32_t index : {p, q, r}) mesh_.vertices[static_cast<std::size_t>(index)].normal += normal;
+    for (const std::int32_t index : {p, q, r})
+      mesh_.vertices[static_cast<std::size_t>(index)].normal += normal;
     mesh_.faces.push_back(
         {static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(q), static_cast<std::uint32_t>(r)});
   }

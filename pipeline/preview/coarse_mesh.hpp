@@ -1,12 +1,12 @@
 #pragma once
 
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "pipeline/model/mesh.hpp"
 #include "pipeline/surface/color.hpp"
 #include "pipeline/surface/grid_mesh.hpp"
+
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace bodyscan {
 
@@ -21,8 +21,8 @@ struct CoarseMesh {
   std::vector<Face> faces;
 };
 
-// A mesh on every `step`-th pixel: a vertex is the mean of those of the full mesh in a block of step x step that
-// lie at about the depth of the one nearest to its middle; light grey without `colors`.
+// A mesh on every `step`-th pixel: a vertex is the mean of those of the full mesh in a block of step x step
+// that lie at about the depth of the one nearest to its middle; light grey without `colors`.
 [[nodiscard]] CoarseMesh coarse_mesh(const GridMesh& mesh, const SurfaceColor* colors, int step);
 
 }  // namespace bodyscan

@@ -1,10 +1,10 @@
 #include "pipeline/preview/false_color.hpp"
 
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
-
-#include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
@@ -14,7 +14,9 @@ struct Scale {
   float high;
 };
 
-std::uint8_t level(float share) { return static_cast<std::uint8_t>(std::lround(255 * share)); }
+std::uint8_t level(float share) {
+  return static_cast<std::uint8_t>(std::lround(255 * share));
+}
 
 // From green over cyan to blue.
 Rgb8 green_to_blue(float value, Scale scale) {

@@ -1,5 +1,8 @@
 #include "pipeline/preview/shaded_model.hpp"
 
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/preview/coarse_mesh.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,18 +12,15 @@
 
 #include <Eigen/Geometry>
 
-#include "pipeline/base/parallel.hpp"
-#include "pipeline/preview/coarse_mesh.hpp"
-
 namespace bodyscan {
 namespace {
 
 using Eigen::Vector3f;
 
-constexpr int samples = 2;         // a pixel's side, for smooth edges
-constexpr float margin = 0.03F;    // share of the picture on each side
+constexpr int samples = 2;       // a pixel's side, for smooth edges
+constexpr float margin = 0.03F;  // share of the picture on each side
 constexpr float ambient = 0.22F;
-constexpr float exposure = 1.25F;  // the colours hold the projector's own shading already
+constexpr float exposure = 1.5F;  // the colours hold the projector's own shading already
 
 // A vertex in the picture: samples from the left and the top, depth away from the viewer.
 struct Seen {
@@ -29,8 +29,11 @@ struct Seen {
 };
 
 struct Canvas {
-  Image<Vector3f> light;
+  Image<Vector3f> light;  // negative where nothing was drawn
   FloatImage depth;
+
+  explicit Canvas(Size size)
+      : light(size, Vector3f(-1, -1, -1)), depth(size, std::numeric_limits<float>::infinity()) {}
 };
 
 float edge(const Vector3f& p, const Vector3f& q, float x, float y) {
@@ -71,9 +74,9 @@ struct View {
 
 View look(const CoarseMesh& mesh, const ShadedModelOptions& options) {
   const auto radians = [](double degrees) { return static_cast<float>(degrees * std::numbers::pi / 180); };
-  const Eigen::Matrix3f turn =
-      (Eigen::AngleAxisf(radians(options.tilt_deg), Vector3f::UnitX()) *
-       Eigen::AngleAxisf(-radians(options.turn_deg), Vector3f::UnitY())).toRotationMatrix();
+  const Eigen::Matrix3f turn = (Eigen::AngleAxisf(radians(options.tilt_deg), Vector3f::UnitX()) *
+                                Eigen::AngleAxisf(-radians(options.turn_deg), Vector3f::UnitY()))
+                                   .toRotationMatrix();
   const Vector3f to_light = Vector3f(-0.45F, -0.55F, -1).normalized();
   View view;
   Vector3f low = Vector3f::Constant(std::numeric_limits<float>::infinity());
@@ -104,17 +107,14 @@ View look(const CoarseMesh& mesh, const ShadedModelOptions& options) {
   return view;
 }
 
-Canvas draw(const CoarseMesh& mesh, const View& view) {
-  const Size size{view.size.width * samples, view.size.height * samples};
-  Canvas canvas{Image<Vector3f>(size, Vector3f(-1, -1, -1)),
-                FloatImage(size, std::numeric_limits<float>::infinity())};
-  const int band = (size.height + thread_count() - 1) / thread_count();
-  parallel_for(0, size.height, band, [&](int top, int bottom) {
+void draw(const CoarseMesh& mesh, const View& view, Canvas& canvas) {
+  const int height = canvas.depth.height();
+  const int band = (height + thread_count() - 1) / thread_count();
+  parallel_for(0, height, band, [&](int top, int bottom) {
     for (const auto& [p, q, r] : mesh.faces) {
       fill(view.vertices[p], view.vertices[q], view.vertices[r], top, bottom, canvas);
     }
   });
-  return canvas;
 }
 
 // Means of the samples of each pixel, encoded.
@@ -122,7 +122,8 @@ ColorImage8 develop(const Canvas& canvas, const ShadedModelOptions& options) {
   constexpr float gamma = 2.2F;
   Vector3f background;
   for (int i = 0; i < 3; ++i) {
-    background[i] = std::pow(static_cast<float>(options.background[static_cast<std::size_t>(i)]) / 255, gamma);
+    background[i] =
+        std::pow(static_cast<float>(options.background[static_cast<std::size_t>(i)]) / 255, gamma);
   }
   ColorImage8 picture(Size{canvas.depth.width() / samples, canvas.depth.height() / samples});
   parallel_for(0, picture.height(), 32, [&](int first, int last) {
@@ -167,12 +168,16 @@ int reduction(const GridMesh& mesh, const ShadedModelOptions& options) {
 
 }  // namespace
 
-ColorImage8 shaded_model(const GridMesh& mesh, const SurfaceColor* colors, const ShadedModelOptions& options) {
+ColorImage8 shaded_model(const GridMesh& mesh, const SurfaceColor* colors,
+                         const ShadedModelOptions& options) {
   const CoarseMesh coarse = coarse_mesh(mesh, colors, reduction(mesh, options));
   if (coarse.faces.empty()) {
     return ColorImage8(Size{options.max_width, options.max_height}, options.background);
   }
-  return develop(draw(coarse, look(coarse, options)), options);
+  const View view = look(coarse, options);
+  Canvas canvas(Size{view.size.width * samples, view.size.height * samples});
+  draw(coarse, view, canvas);
+  return develop(canvas, options);
 }
 
 }  // namespace bodyscan

@@ -1,12 +1,12 @@
 #include "pipeline/surface/cells.hpp"
 
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/surface/range_rows.hpp"
+
 #include <atomic>
 #include <cmath>
 #include <numbers>
 #include <utility>
-
-#include "pipeline/base/parallel.hpp"
-#include "pipeline/surface/range_rows.hpp"
 
 namespace bodyscan {
 namespace {
@@ -89,11 +89,12 @@ struct CellKernel {
 
   BODYSCAN_KERNEL float square(float value) { return value * value; }
 
-  // The largest square of a jump in s between two corners; length in pixels. Squares, so that the noise needs no
-  // root: jump <= edge + noise is taken as jump^2 <= edge^2 + noise^2.
+  // The largest square of a jump in s between two corners; length in pixels. Squares, so that the noise needs
+  // no root: jump <= edge + noise is taken as jump^2 <= edge^2 + noise^2.
   BODYSCAN_KERNEL float allowed(const Corner& p, const Corner& q, float squared_length, const Limits& limit) {
     const float depth2 = square(p.z + q.z);
-    return depth2 * (squared_length * limit.edge_squared * depth2 + limit.variance * (p.variance + q.variance));
+    return depth2 *
+           (squared_length * limit.edge_squared * depth2 + limit.variance * (p.variance + q.variance));
   }
 };
 
@@ -108,7 +109,9 @@ struct VarianceKernel {
   }
 };
 
-float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
+float tangent(double degrees) {
+  return static_cast<float>(std::tan(degrees * std::numbers::pi / 180));
+}
 
 // Two rows of the grid as the kernel wants them, moving down; below the last row there is nothing.
 class CellRows {

@@ -1,14 +1,14 @@
 #include "pipeline/surface/clean.hpp"
 
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/surface/range_rows.hpp"
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include "pipeline/base/parallel.hpp"
-#include "pipeline/surface/range_rows.hpp"
 
 namespace bodyscan {
 namespace {
@@ -25,12 +25,14 @@ struct Limits {
   float spike_sigma;  // times z
   float footprint;    // times z: mm
   int min_support;
+  float rim;  // as spike
+  float rim_sigma;
 };
 
 struct RowWindow {
-  std::array<const float*, 2 * reach + 1> s;  // rows y-2 ... y+2
-  const float* z;                             // row y
-  const float* sigma;
+  std::array<const float*, 2 * reach + 1> s;      // rows y-2 ... y+2
+  std::array<const float*, 2 * reach + 1> sigma;  // rows of the grid: not padded, null outside
+  const float* z;                                 // row y
 };
 
 struct SupportKernel {
@@ -44,7 +46,7 @@ struct SupportKernel {
       for (int dx = -reach; dx <= reach; ++dx) {
         if (dx == 0 && dy == 0) continue;
         const float* other = window->s[reach + dy];
-        const float limit = scale * distance[static_cast<std::size_t>(dy * dy + dx * dx)];
+        const float limit = scale * distance[dy * dy + dx * dx];
         for (int i = 0; i < n; ++i) {
           const int x = begin + i;
           const float jump = other[x + dx] - s[x];
@@ -65,6 +67,7 @@ struct ShapeKernel {
     const float* up = window->s[reach - 1];
     const float* here = window->s[reach];
     const float* down = window->s[reach + 1];
+    const float* sigma_here = window->sigma[reach];
     for (int i = 0; i < end - begin; ++i) {
       const int x = begin + i;
       const float s = here[x];
@@ -95,7 +98,7 @@ struct ShapeKernel {
       spike = spike < infinity ? spike : 0;
 
       const float footprint = limits->footprint * z;
-      const float sigma = window->sigma[x] < footprint ? window->sigma[x] : footprint;
+      const float sigma = sigma_here[x] < footprint ? sigma_here[x] : footprint;
       flying[i] = (steepness > limits->flying_squared * z2 * z2) |
                   (spike > limits->spike * z2 + limits->spike_sigma * z * sigma);
     }
@@ -109,6 +112,31 @@ struct ShapeKernel {
     return std::abs(r) < value ? std::abs(r) : value;
   }
 };
+
+// A rim point is judged by the surface behind it: it flies if it lies off the line through the two points
+// behind it in every direction in which there is no surface before it.
+bool leaves_rim(const RowWindow& window, int x, const Limits& limits) {
+  constexpr std::array<std::array<int, 2>, 8> directions{
+      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+  const auto row = [](int dy) { return reach + dy; };
+  const auto s = [&](int dx, int dy) { return window.s[row(dy)][x + dx]; };
+  const auto variance = [&](int dx, int dy) {
+    const float sigma = window.sigma[row(dy)][x + dx];
+    return sigma * sigma;
+  };
+  const float z = window.z[x];
+  bool judged = false;
+  for (const auto& [dx, dy] : directions) {
+    const float length = dx != 0 && dy != 0 ? std::numbers::sqrt2_v<float> : 1.F;
+    const bool open = !(std::abs(s(dx, dy) - s(0, 0)) <= length * limits.support * z * z);
+    const float bend = std::abs(s(0, 0) - 2 * s(-dx, -dy) + s(-2 * dx, -2 * dy));
+    if (!open || std::isnan(bend)) continue;
+    const float noise = std::sqrt(variance(0, 0) + 4 * variance(-dx, -dy) + variance(-2 * dx, -2 * dy));
+    if (bend <= limits.rim * z * z + limits.rim_sigma * z * noise) return false;
+    judged = true;
+  }
+  return judged;
+}
 
 struct Removed {
   std::size_t points = 0;
@@ -127,10 +155,12 @@ void judge_row(const RowWindow& window, int width, const Limits& limits, PointSt
       const auto i = static_cast<std::size_t>(x - begin);
       const bool absent = std::isnan(window.z[x]);
       const bool isolated = support[i] < limits.min_support;
+      const bool flies =
+          flying[i] || (!absent && !isolated && support[i] < 24 && leaves_rim(window, x, limits));
       out[x] = absent     ? PointState::absent
                : isolated ? PointState::isolated
-               : flying[i] ? PointState::flying
-                           : PointState::kept;
+               : flies    ? PointState::flying
+                          : PointState::kept;
       removed.points += !absent;
       removed.isolated += out[x] == PointState::isolated;
       removed.flying += out[x] == PointState::flying;
@@ -139,28 +169,35 @@ void judge_row(const RowWindow& window, int width, const Limits& limits, PointSt
 }
 
 // Rows [first, last), through a window of five rows that moves down.
-Removed judge_rows(const PointGrid& grid, const Limits& limits, int first, int last, Image<PointState>& states) {
+Removed judge_rows(const PointGrid& grid, const Limits& limits, int first, int last,
+                   Image<PointState>& states) {
   const int width = grid.points.width();
   const int height = grid.points.height();
   std::vector<RangeRow> rows(2 * reach + 1, RangeRow(width));
-  const auto at = [&](int y) -> RangeRow& { return rows[static_cast<std::size_t>((y + 2 * reach + 1) % (2 * reach + 1))]; };
+  const auto at = [&](int y) -> RangeRow& { return rows[(y + 2 * reach + 1) % (2 * reach + 1)]; };
   const auto load = [&](int y) {
     if (y < 0 || y >= height) return at(y).clear();
-    run_kernel<RangeRowKernel>(grid.points.row(y), static_cast<const unsigned char*>(nullptr), width, at(y).s(),
-                               at(y).z());
+    run_kernel<RangeRowKernel>(grid.points.row(y), static_cast<const unsigned char*>(nullptr), width,
+                               at(y).s(), at(y).z());
   };
   Removed removed;
   for (int y = first - reach; y < first + reach; ++y) load(y);
   for (int y = first; y < last; ++y) {
     load(y + reach);
-    RowWindow window{.s = {}, .z = at(y).z(), .sigma = grid.sigma_mm.row(y)};
-    for (int dy = -reach; dy <= reach; ++dy) window.s[static_cast<std::size_t>(reach + dy)] = at(y + dy).s();
+    RowWindow window{.s = {}, .sigma = {}, .z = at(y).z()};
+    for (int dy = -reach; dy <= reach; ++dy) {
+      const int i = reach + dy;
+      window.s[i] = at(y + dy).s();
+      if (y + dy >= 0 && y + dy < height) window.sigma[i] = grid.sigma_mm.row(y + dy);
+    }
     judge_row(window, width, limits, states.row(y), removed);
   }
   return removed;
 }
 
-float tangent(double degrees) { return static_cast<float>(std::tan(degrees * std::numbers::pi / 180)); }
+float tangent(double degrees) {
+  return static_cast<float>(std::tan(degrees * std::numbers::pi / 180));
+}
 
 }  // namespace
 
@@ -177,6 +214,8 @@ Expected<void> CleanOptions::check() const {
   }
   if (!(spike_footprints > 0)) return refuse("spike_footprints: not positive");
   if (!(spike_sigmas >= 0)) return refuse("spike_sigmas: negative");
+  if (!(rim_footprints > 0)) return refuse("rim_footprints: not positive");
+  if (!(rim_sigmas >= 0)) return refuse("rim_sigmas: negative");
   return {};
 }
 
@@ -189,7 +228,9 @@ Image<PointState> find_artifacts(const PointGrid& grid, const Lens& camera, cons
                       .spike = 4 * static_cast<float>(options.spike_footprints) / focal,
                       .spike_sigma = 4 * static_cast<float>(options.spike_sigmas),
                       .footprint = 1 / focal,
-                      .min_support = options.min_support};
+                      .min_support = options.min_support,
+                      .rim = 2 * static_cast<float>(options.rim_footprints) / focal,
+                      .rim_sigma = 2 * static_cast<float>(options.rim_sigmas)};
   Image<PointState> states(grid.points.size());
   std::atomic<std::size_t> points = 0;
   std::atomic<std::size_t> isolated = 0;

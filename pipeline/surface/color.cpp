@@ -1,10 +1,10 @@
 #include "pipeline/surface/color.hpp"
 
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
-
-#include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
@@ -17,7 +17,9 @@ double linear_to_srgb(double linear) {
   return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-std::string text(Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+std::string text(Size size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 }  // namespace
 
@@ -47,7 +49,8 @@ const SurfaceColor::Curve& SurfaceColor::curve() {
 Expected<SurfaceColor> SurfaceColor::create(const ColorImage8& white, const ColorImage8& black,
                                             const ColorOptions& options) {
   if (!black.empty() && black.size() != white.size()) {
-    return input_error("black frame: " + text(black.size()) + " pixels, the white frame has " + text(white.size()));
+    return input_error("black frame: " + text(black.size()) + " pixels, the white frame has " +
+                       text(white.size()));
   }
   if (auto checked = options.check(); !checked) return tl::unexpected(checked.error());
   SurfaceColor color;

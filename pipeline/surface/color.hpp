@@ -1,12 +1,12 @@
 #pragma once
 
+#include "pipeline/base/error.hpp"
+#include "pipeline/base/image.hpp"
+
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
-
-#include "pipeline/base/error.hpp"
-#include "pipeline/base/image.hpp"
 
 namespace bodyscan {
 
@@ -19,8 +19,8 @@ struct ColorOptions {
 };
 
 // The colour of every pixel under the projector's light alone: the white frame minus the black one, in linear
-// light (sRGB transfer curve, IEC 61966-2-1), clipped to what sRGB holds. Exposure is left as it is. Borrows the
-// two photographs.
+// light (sRGB transfer curve, IEC 61966-2-1), clipped to what sRGB holds. Exposure is left as it is. Borrows
+// the two photographs.
 class SurfaceColor {
  public:
   // `black` may be empty: then nothing is subtracted. Error: sizes differ, or a matrix that is not finite.

@@ -1,14 +1,15 @@
 #include "pipeline/surface/components.hpp"
 
-#include <algorithm>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/surface/cells.hpp"
 #include "pipeline/surface/corners.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace bodyscan {
 namespace {
@@ -58,9 +59,10 @@ struct Band {
 };
 
 struct LinkKernel {
-  // 2 where a triangle of cell row y or the one above (null for the first row) uses point (x, y), 1 added where
-  // one joins it to the point on its right. links[0] is column 0.
-  BODYSCAN_KERNEL void run(const std::uint8_t* above, const std::uint8_t* here, int width, std::uint8_t* links) {
+  // 2 where a triangle of cell row y or the one above (null for the first row) uses point (x, y), 1 added
+  // where one joins it to the point on its right. links[0] is column 0.
+  BODYSCAN_KERNEL void run(const std::uint8_t* above, const std::uint8_t* here, int width,
+                           std::uint8_t* links) {
     links[0] = static_cast<std::uint8_t>(corners::a(here[0]) << 1 | corners::top(here[0]));
     for (int x = 1; x < width; ++x) {
       const unsigned point = corners::a(here[x]) | corners::b(here[x - 1]);
@@ -88,7 +90,8 @@ void append_runs(std::span<const std::uint8_t> links, Band& band) {
   band.row_begin.push_back(band.runs.size());
 }
 
-// Joins the runs of two rows that the cells between them connect. `first` and `second` number their first runs.
+// Joins the runs of two rows that the cells between them connect. `first` and `second` number their first
+// runs.
 void join_rows(const std::uint8_t* cells, int width, std::span<const Run> above, std::uint32_t first,
                std::span<const Run> below, std::uint32_t second, DisjointSets& sets) {
   std::size_t i = 0;
@@ -162,48 +165,101 @@ void clear_run(const Run& run, std::uint8_t* cells) {
 struct Component {
   std::size_t points = 0;
   double area_mm2 = 0;
+  bool large = false;
+  int continuations =
+      0;  // ends of runs at which a large component goes on at the same depth, less the others
 };
+
+// The runs of all rows with the components they belong to.
+class Census {
+ public:
+  Census(const PointGrid& grid, const Lens& camera, const ComponentOptions& options,
+         const Image<std::uint8_t>& cells)
+      : grid_(grid), camera_(camera), options_(options), all_(label(cells)), components_(all_.runs.size()) {
+    for_each_run([&](int y, const Run& run, Component& component) { measure(y, run, component); });
+    for (Component& component : components_)
+      component.large = component.area_mm2 >= options_.min_component_mm2;
+    for (std::size_t y = 0; y + 1 < all_.row_begin.size(); ++y) {
+      for (std::size_t i = all_.row_begin[y] + 1; i < all_.row_begin[y + 1]; ++i) compare(y, i - 1, i);
+    }
+  }
+
+  // visit(row, run, component) for all runs in raster order.
+  template <class Visit>
+  void for_each_run(const Visit& visit) {
+    for (std::size_t y = 0; y + 1 < all_.row_begin.size(); ++y) {
+      for (std::size_t i = all_.row_begin[y]; i < all_.row_begin[y + 1]; ++i) {
+        visit(static_cast<int>(y), all_.runs[i], component_of(i));
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<Component>& components() const { return components_; }
+
+ private:
+  Component& component_of(std::size_t run) {
+    return components_[all_.sets.find(static_cast<std::uint32_t>(run))];
+  }
+
+  void measure(int y, const Run& run, Component& component) const {
+    const double z = grid_.points(run.begin + (run.end - run.begin) / 2, y).z;
+    component.points += static_cast<std::size_t>(run.end - run.begin);
+    component.area_mm2 += (run.end - run.begin) * z * z / (camera_.fx * camera_.fy);
+  }
+
+  // Two runs that follow one another in row y, one of a large and one of a small component.
+  void compare(std::size_t y, std::size_t left, std::size_t right) {
+    constexpr double slope = 2;  // 63 degrees
+    Component& p = component_of(left);
+    Component& q = component_of(right);
+    if (p.large == q.large) return;
+    const int row = static_cast<int>(y);
+    const double z = grid_.points(all_.runs[left].end - 1, row).z;
+    const double other = grid_.points(all_.runs[right].begin, row).z;
+    const double gap_mm = (all_.runs[right].begin - all_.runs[left].end + 1) * z / camera_.fx;
+    if (gap_mm > options_.island_gap_mm) return;
+    (p.large ? q : p).continuations += std::abs(z - other) <= slope * gap_mm ? 1 : -1;
+  }
+
+  const PointGrid& grid_;
+  const Lens& camera_;
+  const ComponentOptions& options_;
+  Band all_;
+  std::vector<Component> components_;  // as many as runs; those of the sets' representatives count
+};
+
+bool stays(const Component& component) {
+  return component.large || component.continuations > 0;
+}
 
 }  // namespace
 
 Expected<void> ComponentOptions::check() const {
-  if (min_component_mm2 >= 0) return {};
-  return tl::unexpected(Error{ErrorKind::usage, "components: min_component_mm2: negative"});
+  const auto refuse = [](const char* what) {
+    return tl::unexpected(Error{ErrorKind::usage, std::string("components: ") + what});
+  };
+  if (!(min_component_mm2 >= 0)) return refuse("min_component_mm2: negative");
+  if (!(island_gap_mm >= 0)) return refuse("island_gap_mm: negative");
+  return {};
 }
 
 void remove_small_components(const PointGrid& grid, const Lens& camera, const ComponentOptions& options,
                              Image<std::uint8_t>& cells, ComponentReport& report) {
   report = {};
   if (cells.empty()) return;
-  Band all = label(cells);
-  std::vector<Component> components(all.runs.size());
-  const double footprint = 1 / (camera.fx * camera.fy);  // of one pixel at a depth of 1
-  for (int y = 0; y < cells.height(); ++y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = all.row_begin[row]; i < all.row_begin[row + 1]; ++i) {
-      const Run& run = all.runs[i];
-      const double z = grid.points(run.begin + (run.end - run.begin) / 2, y).z;
-      Component& component = components[all.sets.find(static_cast<std::uint32_t>(i))];
-      component.points += static_cast<std::size_t>(run.end - run.begin);
-      component.area_mm2 += (run.end - run.begin) * z * z * footprint;
-    }
-  }
-  for (const Component& component : components) {
+  Census census(grid, camera, options, cells);
+  for (const Component& component : census.components()) {
     if (component.points == 0) continue;
-    if (component.area_mm2 >= options.min_component_mm2) {
+    if (stays(component)) {
       ++report.components;
     } else {
       ++report.small_components;
       report.small_component_points += component.points;
     }
   }
-  for (int y = 0; y < cells.height(); ++y) {
-    const auto row = static_cast<std::size_t>(y);
-    for (std::size_t i = all.row_begin[row]; i < all.row_begin[row + 1]; ++i) {
-      const Component& component = components[all.sets.find(static_cast<std::uint32_t>(i))];
-      if (component.area_mm2 < options.min_component_mm2) clear_run(all.runs[i], cells.row(y));
-    }
-  }
+  census.for_each_run([&](int y, const Run& run, const Component& component) {
+    if (!stays(component)) clear_run(run, cells.row(y));
+  });
 }
 
 }  // namespace bodyscan

@@ -1,19 +1,23 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
 #include "pipeline/geometry/lens.hpp"
 #include "pipeline/geometry/point_grid.hpp"
 
+#include <cstddef>
+#include <cstdint>
+
 namespace bodyscan {
 
 struct ComponentOptions {
-  // A connected piece of surface that covers less than this, seen from the camera, is removed: mm^2. Measured in
-  // area so that it means the same at every resolution: 25 mm^2 are 900 pixels of a D5000 at 1.05 m.
+  // A connected piece of surface that covers less than this, seen from the camera, is removed: mm^2. Measured
+  // in area so that it means the same at every resolution: 25 mm^2 are 900 pixels of a D5000 at 1.05 m.
   double min_component_mm2 = 25;
+  // But an island stays: a small piece that, along most of the rows, goes on from a large one at the same
+  // depth (63 degrees) across a gap of no more than this. The inside of a mole is one when its rim is not
+  // decoded.
+  double island_gap_mm = 5;
 
   [[nodiscard]] Expected<void> check() const;
 };

@@ -1,11 +1,11 @@
 #include "pipeline/surface/grid_mesh.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/surface/corners.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace bodyscan {
 namespace {
@@ -18,13 +18,14 @@ struct RowTotals {
 };
 
 struct UsedKernel {
-  // used[x] = 1 where a triangle of cell row y (`here`) or the one above (all 0 for the first row) uses (x, y).
+  // used[x] = 1 where a triangle of cell row y (`here`) or the one above (all 0 for the first row) uses (x,
+  // y).
   BODYSCAN_KERNEL void run(const std::uint8_t* above, const std::uint8_t* here, int width, std::uint8_t* used,
                            RowTotals* totals) {
     used[0] = static_cast<std::uint8_t>(corners::a(here[0]) | corners::c(above[0]));
     for (int x = 1; x < width; ++x) {
-      used[x] = static_cast<std::uint8_t>(corners::a(here[x]) | corners::b(here[x - 1]) | corners::c(above[x]) |
-                                          corners::d(above[x - 1]));
+      used[x] = static_cast<std::uint8_t>(corners::a(here[x]) | corners::b(here[x - 1]) |
+                                          corners::c(above[x]) | corners::d(above[x - 1]));
     }
     int points = 0;
     int faces = 0;
@@ -47,7 +48,8 @@ struct MarkKernel {
 
 }  // namespace
 
-GridMesh::GridMesh(PointGrid grid, Image<std::uint8_t> cells) : grid_(std::move(grid)), cells_(std::move(cells)) {
+GridMesh::GridMesh(PointGrid grid, Image<std::uint8_t> cells)
+    : grid_(std::move(grid)), cells_(std::move(cells)) {
   number_rows();
 }
 

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
 #include "pipeline/geometry/point_grid.hpp"
@@ -13,15 +7,21 @@
 #include "pipeline/surface/cells.hpp"
 #include "pipeline/surface/color.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
 namespace bodyscan {
 
 // Takes one chunk after the other; an error ends the iteration and comes back from it.
 template <class Item>
 using ChunkSink = std::function<Expected<void>(std::span<const Item>)>;
 
-// A triangle mesh on the camera's pixel grid. A byte a cell (cells.hpp) says which triangles exist; vertices are
-// numbered in raster order, and only points that a triangle uses are vertices. Points, colours and faces exist a
-// chunk at a time: a 12-megapixel scan has 11 million faces and they are never all in memory.
+// A triangle mesh on the camera's pixel grid. A byte a cell (cells.hpp) says which triangles exist; vertices
+// are numbered in raster order, and only points that a triangle uses are vertices. Points, colours and faces
+// exist a chunk at a time: a 12-megapixel scan has 11 million faces and they are never all in memory.
 class GridMesh {
  public:
   GridMesh() = default;

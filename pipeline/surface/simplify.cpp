@@ -1,21 +1,21 @@
 #include "pipeline/surface/simplify.hpp"
 
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/surface/triangle_fit.hpp"
+
 #include <array>
 #include <cstdlib>
 #include <utility>
 #include <vector>
 
-#include "pipeline/base/parallel.hpp"
-#include "pipeline/surface/triangle_fit.hpp"
-
 namespace bodyscan {
 namespace {
 
-// The hierarchy. Tiles of `tile` pixels are cut along a diagonal into two right triangles; a triangle is split
-// from its right angle to the middle of its hypotenuse, again and again, down to halves of cells. The middle of
-// a diagonal is the centre of a square; the middle of an upright or level hypotenuse is the middle of a side of
-// squares. Two triangles share a hypotenuse and are split together, so there are no cracks, and the split of a
-// triangle asks for that of the two whose halves it is.
+// The hierarchy. Tiles of `tile` pixels are cut along a diagonal into two right triangles; a triangle is
+// split from its right angle to the middle of its hypotenuse, again and again, down to halves of cells. The
+// middle of a diagonal is the centre of a square; the middle of an upright or level hypotenuse is the middle
+// of a side of squares. Two triangles share a hypotenuse and are split together, so there are no cracks, and
+// the split of a triangle asks for that of the two whose halves it is.
 constexpr int tile = 64;
 
 class Hierarchy {
@@ -65,8 +65,8 @@ class Hierarchy {
 
   [[nodiscard]] bool side_must_split(Pixel m, int half, bool level) const {
     if (half == 1) {
-      const bool all = is_full(m.x - 1, m.y - 1) && is_full(m.x, m.y - 1) && is_full(m.x - 1, m.y) &&
-                       is_full(m.x, m.y);
+      const bool all =
+          is_full(m.x - 1, m.y - 1) && is_full(m.x, m.y - 1) && is_full(m.x - 1, m.y) && is_full(m.x, m.y);
       if (!all) return true;
     } else {
       const int quarter = half / 2;
@@ -158,7 +158,7 @@ class Collector {
     const Pixel c{a.x, a.y + 1};
     const Pixel d{a.x + 1, a.y + 1};
     if (code & cell::first) add(a, c, code & cell::anti ? b : d);
-    if (code & cell::second) code & cell::anti ? add(b, c, d) : add(a, d, b);
+    if (code & cell::second) code& cell::anti ? add(b, c, d) : add(a, d, b);
   }
 
   void add(Pixel p, Pixel q, Pixel r) { faces_.push_back({number(p), number(q), number(r)}); }
@@ -229,7 +229,8 @@ Expected<void> SimplifyOptions::check() const {
 
 Expected<Mesh> simplify(const GridMesh& mesh, const SurfaceColor* colors, const SimplifyOptions& options) {
   if (auto checked = options.check(); !checked) return tl::unexpected(checked.error());
-  if (colors && colors->size() != mesh.size()) return input_error("simplify: the colours are of another size");
+  if (colors && colors->size() != mesh.size())
+    return input_error("simplify: the colours are of another size");
   const ColorImage8 image = colors ? colors->image() : ColorImage8();
   const ColorImage8* colored = colors ? &image : nullptr;
   const FitLimits limits{.error_mm = static_cast<float>(options.max_error_mm),

@@ -28,9 +28,9 @@ struct SurfaceReport {
   }
 };
 
-// From measured points to a surface: artifacts away, neighbours joined, small pieces away. The grid moves into
-// the mesh. Error: an option out of its range, or a grid that is not of the camera's size.
-[[nodiscard]] Expected<GridMesh> build_surface(PointGrid grid, const Lens& camera, const SurfaceOptions& options,
-                                               SurfaceReport& report);
+// From measured points to a surface: artifacts away, neighbours joined, small pieces away. The grid moves
+// into the mesh. Error: an option out of its range, or a grid that is not of the camera's size.
+[[nodiscard]] Expected<GridMesh> build_surface(PointGrid grid, const Lens& camera,
+                                               const SurfaceOptions& options, SurfaceReport& report);
 
 }  // namespace bodyscan

@@ -55,7 +55,9 @@ class Footprint {
   int last_;
 };
 
-Eigen::Vector3f vector(const Point3f& p) { return {p.x, p.y, p.z}; }
+Eigen::Vector3f vector(const Point3f& p) {
+  return {p.x, p.y, p.z};
+}
 
 // The plane of a triangle and, by its dual basis, the barycentric coordinates of a point's foot on it.
 struct Plane {
@@ -64,18 +66,20 @@ struct Plane {
   Eigen::Vector3f second;  // weight of the second corner is second . (P - origin)
   Eigen::Vector3f third;
   float from_camera;  // normal . origin
-
-  Plane(const Eigen::Vector3f& p, const Eigen::Vector3f& q, const Eigen::Vector3f& r) : origin(p) {
-    const Eigen::Vector3f to_q = q - p;
-    const Eigen::Vector3f to_r = r - p;
-    const Eigen::Vector3f cross = to_q.cross(to_r);
-    const float squared = cross.squaredNorm();
-    normal = cross / std::sqrt(squared);
-    second = to_r.cross(cross) / squared;
-    third = cross.cross(to_q) / squared;
-    from_camera = normal.dot(origin);
-  }
 };
+
+Plane plane_through(const Eigen::Vector3f& p, const Eigen::Vector3f& q, const Eigen::Vector3f& r) {
+  const Eigen::Vector3f to_q = q - p;
+  const Eigen::Vector3f to_r = r - p;
+  const Eigen::Vector3f cross = to_q.cross(to_r);
+  const float squared = cross.squaredNorm();
+  const Eigen::Vector3f normal = cross / std::sqrt(squared);
+  return {.origin = p,
+          .normal = normal,
+          .second = to_r.cross(cross) / squared,
+          .third = cross.cross(to_q) / squared,
+          .from_camera = normal.dot(p)};
+}
 
 bool points_fit(const Plane& plane, const Point3f* points, int count, float limit) {
   int bad = 0;
@@ -135,14 +139,16 @@ bool colors_fit(const Gradient& gradient, const Rgb8* colors, int count, Pixel o
 
 }  // namespace
 
-bool triangle_fits(const Image<Point3f>& points, const ColorImage8* colors, const std::array<Pixel, 3>& corners,
-                   const FitLimits& limits) {
+bool triangle_fits(const Image<Point3f>& points, const ColorImage8* colors,
+                   const std::array<Pixel, 3>& corners, const FitLimits& limits) {
   const auto [p, q, r] = corners;
-  const Plane plane(vector(points(p.x, p.y)), vector(points(q.x, q.y)), vector(points(r.x, r.y)));
+  const Plane plane =
+      plane_through(vector(points(p.x, p.y)), vector(points(q.x, q.y)), vector(points(r.x, r.y)));
   const Footprint footprint(corners);
   for (int y = footprint.first(); y <= footprint.last(); ++y) {
     const Span span = footprint.span(y);
-    if (!points_fit(plane, points.row(y) + span.begin, span.end - span.begin + 1, limits.error_mm)) return false;
+    if (!points_fit(plane, points.row(y) + span.begin, span.end - span.begin + 1, limits.error_mm))
+      return false;
   }
   if (!colors) return true;
   const Gradient gradient(*colors, corners);

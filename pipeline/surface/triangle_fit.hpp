@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
-
 #include "pipeline/base/image.hpp"
 #include "pipeline/geometry/point_grid.hpp"
+
+#include <array>
 
 namespace bodyscan {
 
@@ -20,9 +20,9 @@ struct FitLimits {
 };
 
 // Whether the triangle between the points at three pixels stands for every point at the pixels it covers, rim
-// included: each point's foot on its plane, or where the ray to the point meets it, lies in the triangle and no
-// further than `error_mm`, and the interpolated colour within `color` levels. Its sides must be horizontal,
-// vertical or at 45 degrees; all points covered must exist. `colors` may be null.
+// included: each point's foot on its plane, or where the ray to the point meets it, lies in the triangle and
+// no further than `error_mm`, and the interpolated colour within `color` levels. Its sides must be
+// horizontal, vertical or at 45 degrees; all points covered must exist. `colors` may be null.
 [[nodiscard]] bool triangle_fits(const Image<Point3f>& points, const ColorImage8* colors,
                                  const std::array<Pixel, 3>& corners, const FitLimits& limits);
 
