@@ -51,17 +51,23 @@ struct Brightest {
 };
 
 struct DropOutshone {
-  BODYSCAN_KERNEL void run(int width, float min_share, const std::uint16_t* contrast,
+  BODYSCAN_KERNEL void run(int width, float min_share, float max_gradient, const std::uint16_t* above,
+                           const std::uint16_t* contrast, const std::uint16_t* below,
                            const std::uint16_t* brightest, float* u) {
     BODYSCAN_VECTORIZE
-    for (int x = 0; x < width; ++x) {
-      const bool own = static_cast<float>(contrast[x]) >= min_share * static_cast<float>(brightest[x]);
-      u[x] = own ? u[x] : std::numeric_limits<float>::quiet_NaN();
+    for (int x = 1; x < width - 1; ++x) {
+      const float own = static_cast<float>(contrast[x]);
+      const float across = static_cast<float>(contrast[x + 1]) - static_cast<float>(contrast[x - 1]);
+      const float down = static_cast<float>(below[x]) - static_cast<float>(above[x]);
+      const float limit = 2 * max_gradient * own;
+      const bool mixed = across * across + down * down > limit * limit;
+      const bool outshone = own < min_share * static_cast<float>(brightest[x]);
+      u[x] = mixed | outshone ? std::numeric_limits<float>::quiet_NaN() : u[x];
     }
   }
 };
 
-void drop_outshone(FloatImage& u, const Image<std::uint16_t>& contrast, float min_share) {
+void drop_outshone(FloatImage& u, const Image<std::uint16_t>& contrast, const BrightnessEdgeLimits& limits) {
   const int width = contrast.width();
   parallel_for(0, contrast.height(), rows_a_task, [&](int first, int last) {
     // Two dark pixels beyond both ends.
@@ -72,7 +78,7 @@ void drop_outshone(FloatImage& u, const Image<std::uint16_t>& contrast, float mi
       run_kernel<Brightest>(width, row(-2), row(-1), row(0), row(1), row(2), down.data() + 2);
       const std::uint16_t* d = down.data();
       run_kernel<Brightest>(width, d, d + 1, d + 2, d + 3, d + 4, brightest.data());
-      run_kernel<DropOutshone>(width, min_share, contrast.row(y),
+      run_kernel<DropOutshone>(width, limits.min_neighbour_share, limits.max_gradient, row(-1), row(0), row(1),
                                static_cast<const std::uint16_t*>(brightest.data()), u.row(y));
     }
   });
@@ -208,10 +214,18 @@ Regression regress(const AxisCorrespondence& axis, const FloatImage& pull, const
 
 }  // namespace
 
-float correct_camera_blur(AxisCorrespondence& axis, const Image<std::uint16_t>& contrast, float min_share) {
+Expected<void> BrightnessEdgeLimits::check() const {
+  const auto refuse = [](const char* what) { return tl::unexpected(Error{ErrorKind::usage, what}); };
+  if (!(min_neighbour_share >= 0 && min_neighbour_share < 1)) return refuse("min_neighbour_share must lie in 0 to 1");
+  if (!(max_gradient > 0)) return refuse("max_gradient must be positive");
+  return {};
+}
+
+float correct_camera_blur(AxisCorrespondence& axis, const Image<std::uint16_t>& contrast,
+                          const BrightnessEdgeLimits& limits) {
   FloatImage& u = axis.coordinate;
   if (std::min(u.width(), u.height()) < 5) return 0;
-  drop_outshone(u, contrast, min_share);
+  drop_outshone(u, contrast, limits);
   const std::uint16_t bright = bright_level(contrast);
   const Image<Gradient> gradients = block_gradients(u, contrast, bright);
   const FloatImage pull = edge_pull(contrast, gradients);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "pipeline/base/error.hpp"
+#include "pipeline/decode/camera_blur.hpp"
 #include "pipeline/decode/local_fit.hpp"
 #include "pipeline/image/tone_response.hpp"
 
@@ -13,10 +14,9 @@ struct DecodeOptions {
   float min_contrast = 5;            // grey levels of 255, white minus black: a pixel below is not lit
   float min_direct_share = 0.06F;    // of white minus black: a pixel whose stripes vary less sees scattered light
   float min_signal_to_noise = 3;     // of the stripes' difference: a pixel below is undecided
-  float min_neighbour_share = 0.2F;  // of the brightest contrast within two pixels: a pixel below shows its light
   int max_dropped_bits = 2;          // finest bits given up where the optics no longer resolve them, 0 to 2
+  BrightnessEdgeLimits brightness_edges;
   LocalFitOptions fit;
-  float max_sigma_px = 0.045F;        // projector px, after the fit: a pixel less certain is undecided
 
   [[nodiscard]] Expected<void> check() const;
 };

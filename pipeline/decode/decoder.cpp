@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "pipeline/base/parallel.hpp"
@@ -38,15 +37,6 @@ Image<std::uint16_t> sum_linear(const Luma& white, const Luma& black, const std:
       },
       white);
   return sum;
-}
-
-void drop_uncertain(AxisCorrespondence& axis, float max_sigma) {
-  parallel_for(0, axis.coordinate.height(), 64, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < axis.coordinate.width(); ++x)
-        if (!(axis.sigma(x, y) <= max_sigma)) axis.coordinate(x, y) = std::numeric_limits<float>::quiet_NaN();
-    }
-  });
 }
 
 std::size_t count_decoded(const Correspondence& found) {
@@ -174,9 +164,8 @@ Expected<Correspondence> Decoder::finish() {
     if (!planes) return;
     AxisCorrespondence raw = locate_stripes(*planes, light_, count, options_);
     planes.reset();
-    correct_camera_blur(raw, light_.contrast, options_.min_neighbour_share);
+    correct_camera_blur(raw, light_.contrast, options_.brightness_edges);
     axis = fit_locally(std::move(raw), options_.fit);
-    drop_uncertain(*axis, options_.max_sigma_px);
   };
   locate(rows_, sequence_.projector.height, found.rows);
   locate(columns_, sequence_.projector.width, found.columns);

@@ -8,7 +8,7 @@ namespace bodyscan {
 struct LocalFitOptions {
   float half_width_px = 1;       // projector px the square reaches up and down; 0: no fit
   float max_half_width_px = 4;   // projector px it may grow to where noise demands
-  float enough_sigma_px = 0.006F;  // projector px; a square need not grow once sigma is below
+  float enough_sigma_px = 0.01F;   // projector px; a square need not grow once sigma is below
 
   [[nodiscard]] Expected<void> check() const;
 };

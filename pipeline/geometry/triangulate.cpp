@@ -120,7 +120,9 @@ struct Depths {
         z += step < newton_steps ? pull / information : 0;
         behind = pz;
       }
-      const float misfit = row_error * row_error * row_weight + column_error * column_error * column_weight;
+      const float calibration = options.calibration_px * options.calibration_px;
+      const float misfit = row_error * row_error * row_weight / (1 + calibration * row_weight) +
+                           column_error * column_error * column_weight / (1 + calibration * column_weight);
       const float deviation = 1 / std::sqrt(information);
       const bool agree = misfit <= options.max_disagreement * options.max_disagreement;
       const bool good = (has_row | has_column) & (z > 0) & (behind > 0) & (deviation <= options.max_sigma_mm) & agree;
@@ -136,6 +138,7 @@ std::string text_of(Size size) { return std::to_string(size.width) + " x " + std
 
 Expected<void> TriangulateOptions::check() const {
   if (!(max_sigma_mm > 0)) return tl::unexpected(Error{ErrorKind::usage, "max_sigma_mm must be positive"});
+  if (!(calibration_px >= 0)) return tl::unexpected(Error{ErrorKind::usage, "calibration_px must not be negative"});
   if (!(max_disagreement > 0)) return tl::unexpected(Error{ErrorKind::usage, "max_disagreement must be positive"});
   return {};
 }
