@@ -19,9 +19,6 @@ endfunction()
 bodyscan_archive(ext::zlib ARCHIVES libz.a)
 bodyscan_archive(ext::png ARCHIVES libpng16.a USES ext::zlib)
 bodyscan_archive(ext::jpeg ARCHIVES libjpeg.a)
-# The archive refers to TBB; pipeline/base/opencv_runtime stands in for it.
-bodyscan_archive(ext::opencv_core ARCHIVES libopencv_core.a INCLUDES /usr/include/opencv4
-                 USES ext::zlib Threads::Threads)
 bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
 bodyscan_archive(ext::json)   # nlohmann, header-only
 bodyscan_archive(ext::cli11)  # header-only

@@ -7,11 +7,15 @@ function(bodyscan_library name)
 endfunction()
 
 # bodyscan_test(NAME SOURCES file... [USES library...] [LABELS label...])
-# A GoogleTest executable and its entry in ctest.
+# A GoogleTest executable and its entry in ctest. Those labelled unit are built by the target unit_tests too.
+add_custom_target(unit_tests)
 function(bodyscan_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;USES;LABELS")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_USES} GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT 600)
+  if("unit" IN_LIST arg_LABELS)
+    add_dependencies(unit_tests ${name})
+  endif()
 endfunction()

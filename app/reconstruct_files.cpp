@@ -1,0 +1,87 @@
+#include "app/reconstruct_files.hpp"
+
+#include "pipeline/base/read_file.hpp"
+#include "pipeline/calibration/calibration_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include <zlib.h>
+
+namespace bodyscan {
+namespace {
+
+std::string text_of(Size size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+std::string name_and_checksum(const std::filesystem::path& path, const std::vector<std::byte>& file) {
+  std::array<char, 16> checksum{};
+  std::snprintf(checksum.data(), checksum.size(), "%08lx",
+                crc32_z(0, reinterpret_cast<const Bytef*>(file.data()), file.size()));
+  return path.filename().string() + " (CRC-32 " + checksum.data() + ")";
+}
+
+Expected<void> check_fit(const Calibration& calibration, const CaptureFolder& capture,
+                         const ReconstructOptions& options) {
+  const auto check = [&](const char* key, Size calibrated, const char* what,
+                         Size captured) -> Expected<void> {
+    if (calibrated == captured) return {};
+    return input_error(options.calibration.string() + ": " + key + ": " + text_of(calibrated) + ", but the " +
+                       what + " of " + options.capture.string() + " has " + text_of(captured));
+  };
+  return check("projector_size", calibration.projector.size, "projector", capture.manifest().projector)
+      .and_then([&] { return check("camera_size", calibration.camera.size, "camera", capture.size()); });
+}
+
+}  // namespace
+
+Expected<void> check_paths(const ReconstructOptions& options) {
+  std::vector<std::filesystem::path> outputs{options.model};
+  for (const auto* path : {&options.report, &options.preview, &options.depth, &options.rows})
+    if (*path) outputs.push_back(**path);
+  return check_distinct(outputs, std::array{options.calibration, options.capture / "capture.json"});
+}
+
+Expected<ReconstructInputs> open_inputs(const ReconstructOptions& options) {
+  Expected<CaptureFolder> capture = CaptureFolder::open(options.capture);
+  if (!capture) return tl::unexpected(capture.error());
+  const Expected<std::vector<std::byte>> file = read_file(options.calibration, max_calibration_bytes);
+  if (!file) return tl::unexpected(file.error());
+  Expected<Calibration> calibration = parse_calibration(as_text(*file), options.calibration.string());
+  if (!calibration) return tl::unexpected(calibration.error());
+  if (Expected<void> fit = check_fit(*calibration, *capture, options); !fit)
+    return tl::unexpected(fit.error());
+  const auto& frames = capture->manifest().frames;
+  const bool has_rows = std::any_of(frames.begin(), frames.end(), [](const ManifestFrame& frame) {
+    return frame.pattern.kind == PatternKind::gray && frame.pattern.axis == Axis::row;
+  });
+  if (options.rows && !has_rows)
+    return input_error(options.capture.string() + ": has no row patterns to draw");
+  return ReconstructInputs{*calibration, name_and_checksum(options.calibration, *file), std::move(*capture)};
+}
+
+Expected<ReconstructOutputs> open_outputs(const ReconstructOptions& options, const ModelInfo& info) {
+  Expected<VrmlWriter> model = VrmlWriter::create(options.model, VrmlGeometry::face_set, info);
+  if (!model) return tl::unexpected(model.error());
+  ReconstructOutputs outputs{std::move(*model), {}, {}, {}, {}};
+  for (const auto& [output, path] :
+       {std::pair(&outputs.report, &options.report), std::pair(&outputs.preview, &options.preview),
+        std::pair(&outputs.depth, &options.depth), std::pair(&outputs.rows, &options.rows)}) {
+    Expected<OptionalOutput> file = OptionalOutput::create(*path);
+    if (!file) return tl::unexpected(file.error());
+    *output = std::move(*file);
+  }
+  return outputs;
+}
+
+Expected<void> ReconstructOutputs::commit() {
+  return model.finish()
+      .and_then([&] { return report.commit(); })
+      .and_then([&] { return preview.commit(); })
+      .and_then([&] { return depth.commit(); })
+      .and_then([&] { return rows.commit(); });
+}
+
+}  // namespace bodyscan

@@ -1,0 +1,96 @@
+#include "tests/accuracy/thresholds.hpp"
+#include "tools/bench/child_process.hpp"
+#include "tools/bench/scenes.hpp"
+#include "tools/evaluate/evaluation.hpp"
+#include "tools/simulator/capture_folder.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace bodyscan {
+namespace {
+
+constexpr double quarter = 0.25;
+constexpr double footprint_mm = 0.66;  // of a pixel at 1.05 m: finer true meshes only take time
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() { std::filesystem::create_directories(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ =
+      std::filesystem::path(testing::TempDir()) / ("bodyscan_accuracy_" + std::to_string(getpid()));
+};
+
+class Accuracy : public testing::TestWithParam<Thresholds> {};
+
+void expect_at_most(const char* figure, double value, const std::optional<double>& limit) {
+  if (limit) {
+    EXPECT_LE(std::abs(value), *limit) << figure;
+  }
+}
+
+void expect_at_least(const char* figure, double value, const std::optional<double>& limit) {
+  if (limit) {
+    EXPECT_GE(value, *limit) << figure;
+  }
+}
+
+void check_shapes(const Evaluation& result, const Thresholds& limit) {
+  EXPECT_EQ(result.steps.size(), limit.step ? 4U : 0U);
+  EXPECT_EQ(result.spheres.size(), limit.sphere_diameter ? 2U : 0U);
+  EXPECT_EQ(result.moles.empty(), !limit.mole_contrast);
+  expect_at_most("step", result.worst_step_mm(), limit.step);
+  expect_at_most("sphere spacing", result.sphere_spacing_error_mm, limit.sphere_spacing);
+  expect_at_most("sphere diameter", result.worst_diameter_mm(), limit.sphere_diameter);
+  expect_at_most("sphere form", result.worst_form_mm(), limit.sphere_form);
+  expect_at_most("flatness", result.worst_flatness_mm(), limit.flatness);
+  expect_at_least("3 mm bump", result.bump_kept(3, 0.5), limit.bump_3mm_kept);
+  expect_at_least("5 mm bump", result.bump_kept(5, 0.5), limit.bump_5mm_kept);
+  expect_at_least("mole contrast", result.median_mole_contrast(), limit.mole_contrast);
+  expect_at_least("mole coverage", result.least_mole_coverage(), limit.mole_coverage);
+}
+
+TEST_P(Accuracy, OfASimulatedScene) {
+  const Thresholds& limit = GetParam();
+  const TemporaryFolder folder;
+  const std::filesystem::path capture = folder.path() / "capture";
+  simulator::RenderOptions options = bench_scene(limit.scene, quarter).value().options;
+  options.output = capture;
+  options.detail = footprint_mm;
+  const auto rendered = simulator::render_capture(options);
+  ASSERT_TRUE(rendered) << rendered.error().message;
+
+  const std::filesystem::path model = folder.path() / "model.wrl";
+  const Expected<ProcessUsage> run =
+      run_program({BODYSCAN_EXECUTABLE, "reconstruct", capture.string(), "--calibration",
+                   (capture / "calibration.yml").string(), "--output", model.string()});
+  ASSERT_TRUE(run) << run.error().message;
+  ASSERT_EQ(run->exit_status, 0);
+
+  const Expected<Evaluation> result = evaluate_files(model, capture);
+  ASSERT_TRUE(result) << result.error().message;
+  std::cout << to_table(*result);
+  EXPECT_LE(result->deviation.rms, limit.rms);
+  EXPECT_LE(result->share_wrong, limit.share_wrong);
+  EXPECT_GE(result->coverage.completeness(), limit.completeness);
+  check_shapes(*result, limit);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Accuracy, testing::ValuesIn(thresholds()),
+                         [](const auto& instance) { return instance.param.scene; });
+
+}  // namespace
+}  // namespace bodyscan

@@ -1,0 +1,86 @@
+#include "app/output_files.hpp"
+
+#include "pipeline/base/read_file.hpp"
+#include "pipeline/image/codec.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace bodyscan {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OutputFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "bodyscan-output-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path folder_;
+};
+
+TEST_F(OutputFiles, DistinctPathsPass) {
+  EXPECT_TRUE(check_distinct(std::vector<fs::path>{folder_ / "a", folder_ / "b"},
+                             std::vector<fs::path>{folder_ / "c"}));
+}
+
+TEST_F(OutputFiles, OneFileForTwoResultsIsAUsageError) {
+  const auto result =
+      check_distinct(std::vector<fs::path>{folder_ / "a", folder_ / "." / "a"}, std::vector<fs::path>{});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::usage);
+}
+
+TEST_F(OutputFiles, AnInputIsNotOverwrittenThroughALinkEither) {
+  std::ignore = OptionalOutput::create(folder_ / "input").and_then([](OptionalOutput output) {
+    return output.commit();
+  });
+  fs::create_symlink("input", folder_ / "link");
+  const auto result =
+      check_distinct(std::vector<fs::path>{folder_ / "link"}, std::vector<fs::path>{folder_ / "input"});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::usage);
+  EXPECT_NE(result.error().message.find("link"), std::string::npos);
+}
+
+TEST_F(OutputFiles, NoPathMeansNothingIsWritten) {
+  auto output = OptionalOutput::create({});
+  ASSERT_TRUE(output);
+  EXPECT_FALSE(output->wanted());
+  EXPECT_TRUE(output->write("text"));
+  EXPECT_TRUE(output->commit());
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(OutputFiles, PictureAppearsWhenCommitted) {
+  const fs::path path = folder_ / "picture.png";
+  auto output = OptionalOutput::create(path);
+  ASSERT_TRUE(output);
+  ASSERT_TRUE(output->write_png(ColorImage8({3, 2}, Rgb8{1, 2, 3})));
+  EXPECT_FALSE(fs::exists(path));
+  ASSERT_TRUE(output->commit());
+  const auto file = read_file(path, 1000);
+  ASSERT_TRUE(file);
+  const auto picture = decode_color(*file);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->size(), (Size{3, 2}));
+  EXPECT_EQ((*picture)(2, 1), (Rgb8{1, 2, 3}));
+}
+
+TEST_F(OutputFiles, FileThatCannotBeWrittenIsKnownAtOnce) {
+  const auto output = OptionalOutput::create(folder_ / "nowhere" / "report.json");
+  ASSERT_FALSE(output);
+  EXPECT_EQ(output.error().kind, ErrorKind::output);
+  EXPECT_NE(output.error().message.find("nowhere/report.json"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bodyscan
