@@ -14,17 +14,17 @@ std::vector<Thresholds> thresholds() {
   all.back().step = 0.001;
   all.back().flatness = 0.16;
 
-  all.push_back({.scene = "skin_head", .rms = 0.044, .share_wrong = 2e-5, .completeness = 0.999});
+  all.push_back({.scene = "skin_head", .rms = 0.039, .share_wrong = 2e-5, .completeness = 0.999});
   all.back().mole_contrast = 0.95;
-  all.back().mole_coverage = 0.99;
+  all.back().mole_coverage = 0.75;
 
-  all.push_back({.scene = "blur", .rms = 0.086, .share_wrong = 1e-4, .completeness = 0.995});
+  all.push_back({.scene = "blur", .rms = 0.078, .share_wrong = 1e-4, .completeness = 0.995});
   all.back().mole_contrast = 0.95;
-  all.back().mole_coverage = 0.98;
+  all.back().mole_coverage = 0.75;
 
-  all.push_back({.scene = "dim", .rms = 0.215, .share_wrong = 0.0015, .completeness = 0.99});
+  all.push_back({.scene = "dim", .rms = 0.14, .share_wrong = 3e-4, .completeness = 0.99});
   all.back().mole_contrast = 0.85;
-  all.back().mole_coverage = 0.90;
+  all.back().mole_coverage = 0.50;
 
   all.push_back({.scene = "columns", .rms = 0.034, .share_wrong = 5e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
@@ -32,7 +32,7 @@ std::vector<Thresholds> thresholds() {
   all.back().sphere_form = 0.12;
   all.back().flatness = 0.175;
 
-  all.push_back({.scene = "both", .rms = 0.025, .share_wrong = 3e-5, .completeness = 0.999});
+  all.push_back({.scene = "both", .rms = 0.032, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.016;
   all.back().sphere_form = 0.105;
