@@ -28,8 +28,7 @@ class Image {
   // Pixels are left uninitialised.
   explicit Image(Size size) : size_(size), pixels_(std::make_unique_for_overwrite<Pixel[]>(size.area())) {}
   Image(Size size, Pixel fill) : Image(size) { std::fill_n(pixels_.get(), size.area(), fill); }
-  Image(Image&& other) noexcept
-      : size_(std::exchange(other.size_, {})), pixels_(std::move(other.pixels_)) {}
+  Image(Image&& other) noexcept : size_(std::exchange(other.size_, {})), pixels_(std::move(other.pixels_)) {}
   Image& operator=(Image&& other) noexcept {
     size_ = std::exchange(other.size_, {});
     pixels_ = std::move(other.pixels_);

@@ -22,7 +22,9 @@ std::atomic<InstructionSet>& active() {
 
 }  // namespace
 
-InstructionSet active_instruction_set() { return active().load(std::memory_order_relaxed); }
+InstructionSet active_instruction_set() {
+  return active().load(std::memory_order_relaxed);
+}
 
 bool force_instruction_set(InstructionSet level) {
   if (level > detect()) return false;

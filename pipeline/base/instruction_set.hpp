@@ -46,9 +46,12 @@ template <class Kernel, class... Args>
 template <class Kernel, class... Args>
 void run_kernel(Args... args) {
   switch (active_instruction_set()) {
-    case InstructionSet::v4: return detail::run_v4<Kernel>(args...);
-    case InstructionSet::v3: return detail::run_v3<Kernel>(args...);
-    case InstructionSet::v2: return detail::run_v2<Kernel>(args...);
+    case InstructionSet::v4:
+      return detail::run_v4<Kernel>(args...);
+    case InstructionSet::v3:
+      return detail::run_v3<Kernel>(args...);
+    case InstructionSet::v2:
+      return detail::run_v2<Kernel>(args...);
   }
 }
 

@@ -112,7 +112,9 @@ ThreadPool& pool() {
 
 }  // namespace
 
-int thread_count() { return pool().threads(); }
+int thread_count() {
+  return pool().threads();
+}
 
 void parallel_for(int begin, int end, int grain, const std::function<void(int, int)>& body) {
   if (begin >= end) return;

@@ -1,21 +1,21 @@
 #include "pipeline/decode/camera_blur.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <vector>
 
-#include "pipeline/base/instruction_set.hpp"
-#include "pipeline/base/parallel.hpp"
-
 namespace bodyscan {
 namespace {
 
-constexpr float max_blur = 1.5F;       // px^2; beyond, something else than the lens bends the coordinate
-constexpr float max_bend = 0.5F;       // projector px: a larger second difference is a jump
-constexpr float min_sigma = 0.01F;     // projector px: no pixel counts for more than this
-constexpr float bright_share = 0.25F;  // of the 95th percentile of contrast: a pixel below has no say
+constexpr double max_blur = 1.5;        // px^2; beyond, something else than the lens bends the coordinate
+constexpr float max_bend = 0.5F;        // projector px: a larger second difference is a jump
+constexpr float min_sigma = 0.01F;      // projector px: no pixel counts for more than this
+constexpr float bright_share = 0.25F;   // of the 95th percentile of contrast: a pixel below has no say
 constexpr double min_significance = 5;  // standard errors
 constexpr int rows_a_task = 32;
 constexpr int block_px = 32;
@@ -40,8 +40,8 @@ std::uint16_t bright_level(const Image<std::uint16_t>& contrast) {
 // The largest of the pixel and two neighbours on each side, `stride` apart; beyond the border counts as dark.
 struct Brightest {
   BODYSCAN_KERNEL void run(int width, const std::uint16_t* two_before, const std::uint16_t* before,
-                           const std::uint16_t* here, const std::uint16_t* after, const std::uint16_t* two_after,
-                           std::uint16_t* brightest) {
+                           const std::uint16_t* here, const std::uint16_t* after,
+                           const std::uint16_t* two_after, std::uint16_t* brightest) {
     BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
       const std::uint16_t near = std::max(std::max(before[x], after[x]), here[x]);
@@ -74,19 +74,22 @@ void drop_outshone(FloatImage& u, const Image<std::uint16_t>& contrast, const Br
     std::vector<std::uint16_t> down(static_cast<std::size_t>(width) + 4, 0);
     std::vector<std::uint16_t> brightest(static_cast<std::size_t>(width));
     for (int y = first; y < last; ++y) {
-      const auto row = [&](int offset) { return contrast.row(std::clamp(y + offset, 0, contrast.height() - 1)); };
+      const auto row = [&](int offset) {
+        return contrast.row(std::clamp(y + offset, 0, contrast.height() - 1));
+      };
       run_kernel<Brightest>(width, row(-2), row(-1), row(0), row(1), row(2), down.data() + 2);
       const std::uint16_t* d = down.data();
       run_kernel<Brightest>(width, d, d + 1, d + 2, d + 3, d + 4, brightest.data());
-      run_kernel<DropOutshone>(width, limits.min_neighbour_share, limits.max_gradient, row(-1), row(0), row(1),
-                               static_cast<const std::uint16_t*>(brightest.data()), u.row(y));
+      run_kernel<DropOutshone>(width, limits.min_neighbour_share, limits.max_gradient, row(-1), row(0),
+                               row(1), static_cast<const std::uint16_t*>(brightest.data()), u.row(y));
     }
   });
 }
 
 // Mean gradient of u over blocks of block_px x block_px pixels and their neighbours, from bright pixels:
 // at a brightness edge the dark side's own coordinates are too noisy to differentiate.
-Image<Gradient> block_gradients(const FloatImage& u, const Image<std::uint16_t>& contrast, std::uint16_t bright) {
+Image<Gradient> block_gradients(const FloatImage& u, const Image<std::uint16_t>& contrast,
+                                std::uint16_t bright) {
   struct Sum {
     Gradient gradient;
     float count = 0;
@@ -152,8 +155,8 @@ FloatImage edge_pull(const Image<std::uint16_t>& contrast, const Image<Gradient>
     for (int y = first; y < last; ++y) {
       for (int bx = 0; bx < gradients.width(); ++bx)
         run_kernel<EdgePull>(std::max(1, bx * block_px), std::min((bx + 1) * block_px, size.width - 1),
-                             gradients(bx, y / block_px), contrast.row(y - 1), contrast.row(y), contrast.row(y + 1),
-                             pull.row(y));
+                             gradients(bx, y / block_px), contrast.row(y - 1), contrast.row(y),
+                             contrast.row(y + 1), pull.row(y));
     }
   });
   return pull;
@@ -188,8 +191,9 @@ struct Regression {
 };
 
 // Along the image direction in which the coordinate changes faster: across it the term is nothing but noise.
-Regression regress(const AxisCorrespondence& axis, const FloatImage& pull, const Image<std::uint16_t>& contrast,
-                   const Image<Gradient>& gradients, std::uint16_t bright) {
+Regression regress(const AxisCorrespondence& axis, const FloatImage& pull,
+                   const Image<std::uint16_t>& contrast, const Image<Gradient>& gradients,
+                   std::uint16_t bright) {
   const FloatImage& u = axis.coordinate;
   Regression all;
   std::mutex mutex;
@@ -216,7 +220,8 @@ Regression regress(const AxisCorrespondence& axis, const FloatImage& pull, const
 
 Expected<void> BrightnessEdgeLimits::check() const {
   const auto refuse = [](const char* what) { return tl::unexpected(Error{ErrorKind::usage, what}); };
-  if (!(min_neighbour_share >= 0 && min_neighbour_share < 1)) return refuse("min_neighbour_share must lie in 0 to 1");
+  if (!(min_neighbour_share >= 0 && min_neighbour_share < 1))
+    return refuse("min_neighbour_share must lie in 0 to 1");
   if (!(max_gradient > 0)) return refuse("max_gradient must be positive");
   return {};
 }
@@ -230,8 +235,9 @@ float correct_camera_blur(AxisCorrespondence& axis, const Image<std::uint16_t>& 
   const Image<Gradient> gradients = block_gradients(u, contrast, bright);
   const FloatImage pull = edge_pull(contrast, gradients);
   const Regression fit = regress(axis, pull, contrast, gradients, bright);
-  if (fit.slope() < min_significance * fit.standard_error() || fit.slope() <= 0) return 0;
-  const float blur = std::min(static_cast<float>(fit.slope()), max_blur);
+  const bool told = fit.slope() > 0 && fit.slope() >= min_significance * fit.standard_error();
+  if (!told || fit.slope() > max_blur) return 0;
+  const float blur = static_cast<float>(fit.slope());
   parallel_for(0, u.height(), rows_a_task, [&](int first, int last) {
     for (int y = first; y < last; ++y) run_kernel<TakeOff>(u.width(), blur, pull.row(y), u.row(y));
   });

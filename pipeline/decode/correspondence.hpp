@@ -1,9 +1,9 @@
 #pragma once
 
-#include <optional>
-
 #include "pipeline/base/image.hpp"
 #include "pipeline/image/tone_response.hpp"
+
+#include <optional>
 
 namespace bodyscan {
 

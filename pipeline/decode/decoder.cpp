@@ -1,14 +1,14 @@
 #include "pipeline/decode/decoder.hpp"
 
-#include <atomic>
-#include <cmath>
-#include <utility>
-
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/decode/camera_blur.hpp"
 #include "pipeline/decode/local_fit.hpp"
 #include "pipeline/decode/locate_stripes.hpp"
 #include "pipeline/decode/response.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <utility>
 
 namespace bodyscan {
 namespace {
@@ -27,7 +27,8 @@ void copy_luma(const Luma& from, Luma& to) {
   std::visit([&](const auto& image) { copy_pixels(image, to); }, from);
 }
 
-Image<std::uint16_t> sum_linear(const Luma& white, const Luma& black, const std::vector<std::uint16_t>& linear) {
+Image<std::uint16_t> sum_linear(const Luma& white, const Luma& black,
+                                const std::vector<std::uint16_t>& linear) {
   Image<std::uint16_t> sum(size_of(white));
   std::visit(
       [&](const auto& w) {
@@ -69,9 +70,10 @@ Expected<Decoder> Decoder::create(PatternSequence sequence, const DecodeOptions&
   const auto canonical = make_sequence(sequence.projector, shape);
   if (!canonical) return tl::unexpected(canonical.error());
   if (canonical->patterns != sequence.patterns)
-    return tl::unexpected(Error{ErrorKind::usage,
-                                "the sequence must be white, black, then rows and columns bit by bit, coarsest "
-                                "first, each with its inverse or all without"});
+    return tl::unexpected(
+        Error{ErrorKind::usage,
+              "the sequence must be white, black, then rows and columns bit by bit, coarsest "
+              "first, each with its inverse or all without"});
   Decoder decoder(std::move(sequence), options);
   decoder.inverses_ = shape.inverses;
   return decoder;
@@ -81,9 +83,11 @@ Expected<void> Decoder::consume(const Frame& frame) {
   if (next_ == sequence_.patterns.size()) return input_error("a frame came after the sequence's last one");
   const Pattern& expected = sequence_.patterns[next_];
   if (frame.pattern != expected)
-    return input_error("expected the frame of pattern " + describe(expected) + ", got " + describe(frame.pattern));
+    return input_error("expected the frame of pattern " + describe(expected) + ", got " +
+                       describe(frame.pattern));
   if (next_ > 0 && (size_of(frame.luma) != camera_ || frame.luma.index() != depth_))
-    return input_error("the frame of pattern " + describe(expected) + " differs from the first in size or depth");
+    return input_error("the frame of pattern " + describe(expected) +
+                       " differs from the first in size or depth");
   camera_ = size_of(frame.luma);
   depth_ = frame.luma.index();
   ++next_;
@@ -97,10 +101,7 @@ Expected<void> Decoder::consume_white_black(const Frame& frame) {
   }
   copy_luma(frame.luma, black_);
   response_settled_ = options_.response.has_value() || !inverses_;
-  auto used = use_response(options_.response.value_or(ToneResponse{}));
-  if (!used) return used;
-  if (!inverses_) middle_ = sum_linear(white_, black_, linear_);
-  return {};
+  return use_response(options_.response.value_or(ToneResponse{}));
 }
 
 Expected<void> Decoder::use_response(const ToneResponse& response) {
@@ -109,6 +110,7 @@ Expected<void> Decoder::use_response(const ToneResponse& response) {
   auto light = measure_illumination(white_, black_, options_.min_contrast, linear_);
   if (!light) return tl::unexpected(light.error());
   light_ = std::move(*light);
+  if (!inverses_) middle_ = sum_linear(white_, black_, linear_);
   if (response_settled_) {
     white_ = {};
     black_ = {};
@@ -116,15 +118,18 @@ Expected<void> Decoder::use_response(const ToneResponse& response) {
   return {};
 }
 
-// A bit that could not tell has no edge on the subject, so what it left in the planes does not matter.
+// A bit too coarse to tell may still have an edge on the subject, so its differences are kept, rescaled.
 Expected<void> Decoder::settle_response(const Luma& pattern, const Luma& inverse) {
   if (response_settled_) return {};
   const ResponseTest test = test_response(white_, black_, pattern, inverse);
   if (test.samples == 0) return {};
   response_settled_ = true;
+  const Image<std::uint16_t> before = std::move(light_.contrast);
+  auto used = use_response(test.instead.value_or(response_));
+  if (!used) return used;
   for (auto* planes : {&rows_, &columns_})
-    if (test.instead && *planes) (*planes)->restart_coarse();
-  return use_response(test.instead.value_or(response_));
+    if (test.instead && *planes) (*planes)->rescale_coarse(before, light_.contrast);
+  return {};
 }
 
 Expected<void> Decoder::consume_bit(const Frame& frame) {

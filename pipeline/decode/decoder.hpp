@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "pipeline/base/error.hpp"
 #include "pipeline/decode/correspondence.hpp"
 #include "pipeline/decode/decode_options.hpp"
@@ -10,6 +7,9 @@
 #include "pipeline/decode/stripe_planes.hpp"
 #include "pipeline/image/frame.hpp"
 #include "pipeline/pattern/sequence.hpp"
+
+#include <optional>
+#include <vector>
 
 namespace bodyscan {
 
@@ -45,10 +45,10 @@ class Decoder {
   ToneResponse response_;
   bool response_settled_ = false;
   std::vector<std::uint16_t> linear_;
-  Luma white_;                     // white and black stay until the response is settled
+  Luma white_;  // white and black stay until the response is settled
   Luma black_;
-  Luma held_;                      // a pattern until its inverse comes
-  Image<std::uint16_t> middle_;    // white plus black, for sequences without inverses
+  Luma held_;                    // a pattern until its inverse comes
+  Image<std::uint16_t> middle_;  // white plus black, for sequences without inverses
   Illumination light_;
   std::optional<StripePlanes> rows_;
   std::optional<StripePlanes> columns_;

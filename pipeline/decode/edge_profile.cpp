@@ -17,8 +17,8 @@ constexpr double prior_samples = 300;
 
 using Density = std::array<double, bins>;
 
-// Binomial passes over the tiles: the window must fade out, since a hard edge cuts through stripes and makes some
-// positions in them more frequent than others. Doubled with each dropped bit, as the stripes are.
+// Binomial passes over the tiles: the window must fade out, since a hard edge cuts through stripes and makes
+// some positions in them more frequent than others. Doubled with each dropped bit, as the stripes are.
 constexpr int blur_passes = 4;
 
 // One pass of 1 2 1 in both directions; what lies beyond the border counts as empty.
@@ -68,8 +68,7 @@ std::array<float, terms> fit(const Density& density) {
 }  // namespace
 
 EdgeProfile::Histogram::Histogram(Size camera)
-    : counts_({(camera.width + tile_px - 1) / tile_px, (camera.height + tile_px - 1) / tile_px},
-              Counts{}) {}
+    : counts_({(camera.width + tile_px - 1) / tile_px, (camera.height + tile_px - 1) / tile_px}, Counts{}) {}
 
 void EdgeProfile::Histogram::add_run(int y, int begin, int end, const float* ratios,
                                      const std::uint16_t* cells) {
@@ -105,7 +104,8 @@ EdgeProfile::EdgeProfile(const Histogram& histogram, int dropped) : tiles_(histo
 
 void EdgeProfile::coefficients_of_row(int y, int width, float* coefficients) const {
   const auto position = [](int pixel, int tiles) {
-    return std::clamp((static_cast<float>(pixel) + 0.5F) / tile_px - 0.5F, 0.0F, static_cast<float>(tiles - 1));
+    return std::clamp((static_cast<float>(pixel) + 0.5F) / tile_px - 0.5F, 0.0F,
+                      static_cast<float>(tiles - 1));
   };
   const float v = position(y, tiles_.height());
   const int top = static_cast<int>(v);
@@ -125,7 +125,9 @@ void EdgeProfile::coefficients_of_row(int y, int width, float* coefficients) con
       // Up to the centre of the next tile the coefficients are one ramp (constant before the first centre and
       // after the last).
       const bool before = x < tile_px / 2;
-      const int end = before ? tile_px / 2 : left + 1 < tiles_.width() ? (left + 1) * tile_px + tile_px / 2 : width;
+      const int end = before                      ? tile_px / 2
+                      : left + 1 < tiles_.width() ? (left + 1) * tile_px + tile_px / 2
+                                                  : width;
       const float step = before || left + 1 >= tiles_.width() ? 0 : (b - a) / tile_px;
       const float start = a + (u - static_cast<float>(left)) * (b - a);
       const int stop = std::min(end, width);

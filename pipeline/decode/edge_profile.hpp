@@ -1,20 +1,21 @@
 #pragma once
 
+#include "pipeline/base/image.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/base/image.hpp"
-
 namespace bodyscan {
 
-// How the edge ratio (edge_ratio.hpp) runs from one stripe edge to the next: the optics' edge-spread function,
-// measured from the capture itself, tile by tile. Over a surface that crosses many stripes every position
-// between two edges is as frequent as any other, so position = cumulative distribution of the ratio; kept as
+// How the edge ratio (edge_ratio.hpp) runs from one stripe edge to the next: the optics' edge-spread
+// function, measured from the capture itself, tile by tile. Over a surface that crosses many stripes every
+// position between two edges is as frequent as any other, so position = cumulative distribution of the ratio;
+// kept as
 //   position = r + r (1 - r) (c0 + c1 t + c2 t^2 + c3 t^3),  t = 2 r - 1.
-// Where light spreads far (subsurface scattering) an edge's slope depends on how near that bit's next edge is, so
-// there are two profiles: for stripes whose coarse edge belongs to the bit next to the fine one (an edge every
-// four stripes) and to any bit beyond (eight and more).
+// Where light spreads far (subsurface scattering) an edge's slope depends on how near that bit's next edge
+// is, so there are two profiles: for stripes whose coarse edge belongs to the bit next to the fine one (an
+// edge every four stripes) and to any bit beyond (eight and more).
 class EdgeProfile {
  public:
   static constexpr int tile_px = 64;
@@ -42,8 +43,8 @@ class EdgeProfile {
   // Of stripes of 2^dropped rows.
   EdgeProfile(const Histogram& histogram, int dropped);
 
-  // The polynomials' coefficients at each pixel of camera row y, between tiles bilinear: kinds x terms arrays of
-  // `width` floats, one after the other.
+  // The polynomials' coefficients at each pixel of camera row y, between tiles bilinear: kinds x terms arrays
+  // of `width` floats, one after the other.
   void coefficients_of_row(int y, int width, float* coefficients) const;
 
  private:

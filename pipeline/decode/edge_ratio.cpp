@@ -1,10 +1,10 @@
 #include "pipeline/decode/edge_ratio.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "pipeline/base/instruction_set.hpp"
 
 namespace bodyscan {
 namespace {
@@ -68,11 +68,11 @@ void measure_edge_ratio(const StripePlanes& planes, const Image<std::uint16_t>& 
   std::vector<std::uint16_t> coarse(planes.coarse.row(y), planes.coarse.row(y) + width);
   for (int bit = dropped + 1; bit < StripePlanes::fine_bits && bit < planes.bit_count; ++bit)
     run_kernel<CoarserOf>(width, planes.fine[static_cast<std::size_t>(bit)].row(y), coarse.data());
-  run_kernel<EdgeRatio>(Inputs{width, dropped, limits.count, limits.min_direct_share, limits.min_signal_to_noise,
-                               limits.noise, planes.gray.row(y),
-                               planes.fine[static_cast<std::size_t>(dropped)].row(y), coarse.data(),
-                               contrast.row(y)},
-                        ratio, cell, deviation);
+  run_kernel<EdgeRatio>(
+      Inputs{width, dropped, limits.count, limits.min_direct_share, limits.min_signal_to_noise, limits.noise,
+             planes.gray.row(y), planes.fine[static_cast<std::size_t>(dropped)].row(y), coarse.data(),
+             contrast.row(y)},
+      ratio, cell, deviation);
 }
 
 }  // namespace bodyscan

@@ -1,9 +1,9 @@
 #include "pipeline/decode/illumination.hpp"
 
+#include "pipeline/base/parallel.hpp"
+
 #include <atomic>
 #include <limits>
-
-#include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
@@ -24,7 +24,7 @@ Expected<Illumination> measure(const Image<Pixel>& white, const Image<Pixel>& bl
       const Pixel* b = black.row(y);
       std::uint16_t* contrast = light.contrast.row(y);
       for (int x = 0; x < white.width(); ++x) {
-        const bool bright = w[x] - b[x] >= threshold;
+        const bool bright = w[x] - b[x] >= threshold && linear[w[x]] > linear[b[x]];
         contrast[x] = bright ? static_cast<std::uint16_t>(linear[w[x]] - linear[b[x]]) : std::uint16_t{0};
         lit_here += bright;
         excess_here += w[x] - b[x];
@@ -35,7 +35,8 @@ Expected<Illumination> measure(const Image<Pixel>& white, const Image<Pixel>& bl
   });
   light.pixels_lit = lit;
   if (excess < 0) return input_error("the white frame is darker than the black one");
-  if (light.pixels_lit == 0) return input_error("nothing is lit: no pixel of the white frame exceeds the black one");
+  if (light.pixels_lit == 0)
+    return input_error("nothing is lit: no pixel of the white frame exceeds the black one");
   return light;
 }
 

@@ -1,5 +1,8 @@
 #include "pipeline/decode/local_fit.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,19 +10,17 @@
 #include <limits>
 #include <vector>
 
-#include "pipeline/base/instruction_set.hpp"
-#include "pipeline/base/parallel.hpp"
-
 namespace bodyscan {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr int max_radius = 12;
 
-// Second difference, in projector px, above which neighbours do not lie on one smooth surface; a bump of 0.5 mm
-// on 2 mm makes 0.1 px at 3 camera px a mm.
+// Second difference, in projector px, above which neighbours do not lie on one smooth surface; a bump of 0.5
+// mm on 2 mm makes 0.1 px at 3 camera px a mm.
 constexpr float max_bend = 0.2F;
-constexpr float max_bend_sigmas = 12;  // five of a second difference, whose deviation is sqrt(6) times a value's
+constexpr float max_bend_sigmas =
+    12;  // five of a second difference, whose deviation is sqrt(6) times a value's
 
 // Weights of the value at the middle of a quadratic fitted to 2 radius + 1 equidistant values.
 struct Weights {
@@ -35,7 +36,8 @@ struct Weights {
   }
   int radius;
   std::array<float, 2 * max_radius + 1> at{};
-  float gain = 0;  // variance of the middle value in units of one value's; in both directions: standard deviation
+  float gain =
+      0;  // variance of the middle value in units of one value's; in both directions: standard deviation
 };
 
 // A row without the pixels that bend too much; `above` and `below` are its neighbours.
@@ -110,17 +112,19 @@ bool any_above(const AxisCorrespondence& raw, int first, int last, float sigma) 
   return false;
 }
 
-// Fits rows [first, last) of `raw` with one radius into `out`, whose values stay where the square is not whole or
-// not needed: where gain_before times the raw sigma is `enough`.
-void fit_rows(const AxisCorrespondence& raw, const Weights& weights, float gain_before, float enough, int first,
-              int last, AxisCorrespondence& out) {
+// Fits rows [first, last) of `raw` with one radius into `out`, whose values stay where the square is not
+// whole or not needed: where gain_before times the raw sigma is `enough`.
+void fit_rows(const AxisCorrespondence& raw, const Weights& weights, float gain_before, float enough,
+              int first, int last, AxisCorrespondence& out) {
   const int width = raw.coordinate.width();
   const int height = raw.coordinate.height();
   const int r = weights.radius;
   const auto columns = static_cast<std::size_t>(width);
   std::vector<float> kept(columns, none);
   std::vector<float> across(columns * static_cast<std::size_t>(last - first + 2 * r), none);
-  const auto across_row = [&](int y) { return across.data() + columns * static_cast<std::size_t>(y - first + r); };
+  const auto across_row = [&](int y) {
+    return across.data() + columns * static_cast<std::size_t>(y - first + r);
+  };
   for (int y = std::max(1, first - r); y < std::min(height - 1, last + r); ++y) {
     run_kernel<KeepSmooth>(width, raw.coordinate.row(y - 1), raw.coordinate.row(y), raw.coordinate.row(y + 1),
                            raw.sigma.row(y), kept.data());
@@ -154,8 +158,10 @@ std::vector<Weights> make_sizes(const LocalFitOptions& options, float px_per_uni
 
 Expected<void> LocalFitOptions::check() const {
   if (!(half_width_px >= 0 && half_width_px <= max_half_width_px && max_half_width_px <= 20))
-    return tl::unexpected(Error{ErrorKind::usage, "the local fit's half width must lie in 0 to its maximum, that in 0 to 20"});
-  if (!(enough_sigma_px >= 0)) return tl::unexpected(Error{ErrorKind::usage, "enough_sigma_px must not be negative"});
+    return tl::unexpected(
+        Error{ErrorKind::usage, "the local fit's half width must lie in 0 to its maximum, that in 0 to 20"});
+  if (!(enough_sigma_px >= 0))
+    return tl::unexpected(Error{ErrorKind::usage, "enough_sigma_px must not be negative"});
   return {};
 }
 

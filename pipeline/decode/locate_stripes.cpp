@@ -1,17 +1,17 @@
 #include "pipeline/decode/locate_stripes.hpp"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <optional>
-#include <vector>
-
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/decode/edge_profile.hpp"
 #include "pipeline/decode/edge_ratio.hpp"
 #include "pipeline/decode/noise.hpp"
 #include "pipeline/decode/stripe_resolution.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
 
 namespace bodyscan {
 namespace {
@@ -21,7 +21,9 @@ constexpr int levels = StripePlanes::fine_bits;  // 0, 1 or 2 bits dropped
 // One camera row's measurements.
 struct RowBuffer {
   explicit RowBuffer(int width)
-      : ratio(static_cast<std::size_t>(width)), deviation(ratio.size()), cell(ratio.size()),
+      : ratio(static_cast<std::size_t>(width)),
+        deviation(ratio.size()),
+        cell(ratio.size()),
         coefficients(ratio.size() * EdgeProfile::kinds * EdgeProfile::terms) {}
   std::vector<float> ratio;
   std::vector<float> deviation;
@@ -45,7 +47,8 @@ void for_each_run(const StripeResolution& resolution, int y, int dropped, int wi
 
 bool row_has_level(const StripeResolution& resolution, int y, int dropped) {
   const std::uint8_t* blocks = resolution.dropped.row(y / StripeResolution::block_px);
-  return std::find(blocks, blocks + resolution.dropped.width(), dropped) != blocks + resolution.dropped.width();
+  return std::find(blocks, blocks + resolution.dropped.width(), dropped) !=
+         blocks + resolution.dropped.width();
 }
 
 struct Place {
@@ -96,11 +99,11 @@ AxisCorrespondence locate_stripes(const StripePlanes& planes, const Illumination
     for (int y = first; y < last; ++y) {
       for (int dropped = 0; dropped < levels; ++dropped) {
         if (!row_has_level(resolution, y, dropped)) continue;
-        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(), buffer.cell.data(),
-                           buffer.deviation.data());
+        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(),
+                           buffer.cell.data(), buffer.deviation.data());
         for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
           histograms[static_cast<std::size_t>(dropped)].add_run(y, begin, end, buffer.ratio.data(),
-                                                                    buffer.cell.data());
+                                                                buffer.cell.data());
         });
       }
     }
@@ -115,8 +118,8 @@ AxisCorrespondence locate_stripes(const StripePlanes& planes, const Illumination
     for (int y = first; y < last; ++y) {
       for (int dropped = 0; dropped < levels; ++dropped) {
         if (!row_has_level(resolution, y, dropped)) continue;
-        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(), buffer.cell.data(),
-                           buffer.deviation.data());
+        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(),
+                           buffer.cell.data(), buffer.deviation.data());
         profiles[static_cast<std::size_t>(dropped)].coefficients_of_row(y, camera.width,
                                                                         buffer.coefficients.data());
         for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {

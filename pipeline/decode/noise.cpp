@@ -1,16 +1,16 @@
 #include "pipeline/decode/noise.hpp"
 
+#include "pipeline/decode/response.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-#include "pipeline/decode/response.hpp"
-
 namespace bodyscan {
 namespace {
 
-constexpr int bins = 16;                   // of contrast
+constexpr int bins = 16;                    // of contrast
 constexpr std::size_t min_bin_count = 200;  // samples for a median absolute deviation to be worth a point
 
 // sRGB's mean slope, one grey level of quantisation and JPEG coding each in pattern and inverse.

@@ -15,9 +15,12 @@ double srgb_to_linear(double encoded) {
 
 double to_linear(const ToneResponse& response, double encoded) {
   switch (response.kind) {
-    case ToneResponse::Kind::srgb: return srgb_to_linear(encoded);
-    case ToneResponse::Kind::gamma: return std::pow(encoded, response.gamma);
-    case ToneResponse::Kind::linear: break;
+    case ToneResponse::Kind::srgb:
+      return srgb_to_linear(encoded);
+    case ToneResponse::Kind::gamma:
+      return std::pow(encoded, response.gamma);
+    case ToneResponse::Kind::linear:
+      break;
   }
   return encoded;
 }
@@ -41,8 +44,8 @@ struct Sample {
 };
 
 template <class Pixel>
-std::vector<Sample> edge_samples(const Image<Pixel>& white, const Image<Pixel>& black, const Image<Pixel>& pattern,
-                                 const Image<Pixel>& inverse) {
+std::vector<Sample> edge_samples(const Image<Pixel>& white, const Image<Pixel>& black,
+                                 const Image<Pixel>& pattern, const Image<Pixel>& inverse) {
   constexpr int full = std::numeric_limits<Pixel>::max();
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < white.size().area(); ++i) {
@@ -50,8 +53,8 @@ std::vector<Sample> edge_samples(const Image<Pixel>& white, const Image<Pixel>& 
     const int difference = std::abs(pattern.data()[i] - inverse.data()[i]);
     if (contrast < full / 10 || white.data()[i] > full - full / 50 || 5 * difference > contrast) continue;
     const auto share = [](Pixel value) { return static_cast<double>(value) / full; };
-    samples.push_back({share(white.data()[i]), share(black.data()[i]), share(pattern.data()[i]),
-                       share(inverse.data()[i])});
+    samples.push_back(
+        {share(white.data()[i]), share(black.data()[i]), share(pattern.data()[i]), share(inverse.data()[i])});
   }
   return samples;
 }
@@ -83,7 +86,8 @@ ResponseTest test_response(const Luma& white, const Luma& black, const Luma& pat
   const std::vector<Sample> samples = std::visit(
       [&](const auto& w) {
         using Picture = std::decay_t<decltype(w)>;
-        return edge_samples(w, std::get<Picture>(black), std::get<Picture>(pattern), std::get<Picture>(inverse));
+        return edge_samples(w, std::get<Picture>(black), std::get<Picture>(pattern),
+                            std::get<Picture>(inverse));
       },
       white);
   if (samples.size() < min_samples) return {};

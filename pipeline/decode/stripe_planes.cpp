@@ -1,10 +1,10 @@
 #include "pipeline/decode/stripe_planes.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-
-#include "pipeline/base/instruction_set.hpp"
 
 namespace bodyscan {
 namespace {
@@ -40,8 +40,8 @@ void subtract(int width, const Pixel* pattern, const Pixel* inverse, const std::
 }
 
 template <class Pixel>
-void subtract_middle(int width, const Pixel* pattern, const std::uint16_t* middle, const std::uint16_t* linear,
-                     std::int16_t* difference) {
+void subtract_middle(int width, const Pixel* pattern, const std::uint16_t* middle,
+                     const std::uint16_t* linear, std::int16_t* difference) {
   for (int x = 0; x < width; ++x)
     difference[x] = static_cast<std::int16_t>(2 * linear[pattern[x]] - middle[x]);
 }
@@ -53,8 +53,14 @@ StripePlanes::StripePlanes(Size camera, int count)
   for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
 }
 
-void StripePlanes::restart_coarse() {
-  std::fill_n(coarse.data(), coarse.size().area(), std::numeric_limits<std::uint16_t>::max());
+void StripePlanes::rescale_coarse(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
+  constexpr float most = std::numeric_limits<std::uint16_t>::max();
+  for (std::size_t i = 0; i < coarse.size().area(); ++i) {
+    const float scale =
+        static_cast<float>(now.data()[i]) / std::max(static_cast<float>(before.data()[i]), 1.0F);
+    coarse.data()[i] =
+        static_cast<std::uint16_t>(std::min(static_cast<float>(coarse.data()[i]) * scale, most));
+  }
   for (auto& samples : plateau) samples.clear();
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "pipeline/base/image.hpp"
+#include "pipeline/image/frame.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include "pipeline/base/image.hpp"
-#include "pipeline/image/frame.hpp"
 
 namespace bodyscan {
 
@@ -18,11 +18,11 @@ struct StripePlanes {
   StripePlanes(Size camera, int bit_count);
 
   int bit_count = 0;
-  Image<std::uint16_t> gray;                            // Gray code, a bit set where the pattern beat its inverse
-  std::array<Image<std::int16_t>, fine_bits> fine;      // difference of bits 0, 1, 2
-  Image<std::uint16_t> coarse;                          // smallest |difference| of bits 3 and up
-  std::array<std::vector<std::uint16_t>, 2> plateau;    // |difference| of the two coarsest bits, every
-  static constexpr int plateau_step = 4;                // plateau_step-th pixel both ways: they measure the noise
+  Image<std::uint16_t> gray;                        // Gray code, a bit set where the pattern beat its inverse
+  std::array<Image<std::int16_t>, fine_bits> fine;  // difference of bits 0, 1, 2
+  Image<std::uint16_t> coarse;                      // smallest |difference| of bits 3 and up
+  std::array<std::vector<std::uint16_t>, 2> plateau;  // |difference| of the two coarsest bits, every
+  static constexpr int plateau_step = 4;  // plateau_step-th pixel both ways: they measure the noise
 
   // Takes bit `bit` in, coarsest first: both pictures as photographed, `linear` as of linear_table.
   void add(int bit, const Luma& pattern, const Luma& inverse, std::span<const std::uint16_t> linear);
@@ -31,8 +31,9 @@ struct StripePlanes {
   void add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
                    std::span<const std::uint16_t> linear);
 
-  // Forgets the coarse differences so far (not the bits): they were taken under another response.
-  void restart_coarse();
+  // Takes the coarse differences so far over to another response: the contrasts under the old one and the
+  // new. Zero crossings stay; the noise samples start afresh.
+  void rescale_coarse(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now);
 
  private:
   void add_row(int bit, int y, const std::int16_t* difference);

@@ -1,24 +1,24 @@
 #include "pipeline/decode/stripe_resolution.hpp"
 
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <array>
-
-#include "pipeline/base/parallel.hpp"
 
 namespace bodyscan {
 namespace {
 
 constexpr float keep_ratio = 0.25F;
 
-// Mean squares over a block's lit pixels: the differences of bits 0, 1, 2, then white minus black, which stands for
-// all bits beyond.
+// Mean squares over a block's lit pixels: the differences of bits 0, 1, 2, then white minus black, which
+// stands for all bits beyond.
 struct Energy {
   std::array<float, StripePlanes::fine_bits + 1> squares{};
   float noise = 0;
 };
 
-void add_row(const StripePlanes& planes, const std::uint16_t* contrast, const NoiseModel& noise, int y, int begin,
-             int end, Energy& energy) {
+void add_row(const StripePlanes& planes, const std::uint16_t* contrast, const NoiseModel& noise, int y,
+             int begin, int end, Energy& energy) {
   for (std::size_t bit = 0; bit < planes.fine.size(); ++bit) {
     const std::int16_t* fine = planes.fine[bit].row(y);
     float sum = 0;
@@ -67,14 +67,16 @@ Energy sum_around(const Image<Energy>& blocks, int bx, int by) {
 StripeResolution find_stripe_resolution(const StripePlanes& planes, const Image<std::uint16_t>& contrast,
                                         const NoiseModel& noise, int max_dropped_bits) {
   const Image<Energy> blocks = measure_blocks(planes, contrast, noise);
-  const int droppable = std::min({max_dropped_bits, StripePlanes::fine_bits - 1, planes.bit_count - 2});
+  const int droppable =
+      std::min({max_dropped_bits, StripePlanes::fine_bits - 1, std::max(0, planes.bit_count - 2)});
   StripeResolution resolution{Image<std::uint8_t>(blocks.size(), 0)};
   for (int by = 0; by < blocks.height(); ++by) {
     for (int bx = 0; bx < blocks.width(); ++bx) {
       const Energy energy = sum_around(blocks, bx, by);
       std::uint8_t& dropped = resolution.dropped(bx, by);
       for (std::size_t bit = 0; bit < static_cast<std::size_t>(droppable); ++bit)
-        if (energy.squares[bit] - energy.noise < keep_ratio * keep_ratio * (energy.squares[bit + 2] - energy.noise))
+        if (energy.squares[bit] - energy.noise <
+            keep_ratio * keep_ratio * (energy.squares[bit + 2] - energy.noise))
           dropped = static_cast<std::uint8_t>(bit + 1);
     }
   }

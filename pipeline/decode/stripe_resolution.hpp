@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-
 #include "pipeline/base/image.hpp"
 #include "pipeline/decode/noise.hpp"
 #include "pipeline/decode/stripe_planes.hpp"
+
+#include <cstdint>
 
 namespace bodyscan {
 
@@ -17,10 +17,10 @@ struct StripeResolution {
   [[nodiscard]] int at(int x, int y) const { return dropped(x / block_px, y / block_px); }
 };
 
-// Defocus and subsurface scattering wash stripes out, the finest first. With amplitudes a0, a1, a2, ... of the bits'
-// differences (root mean square, noise taken off), stripes of bit k place a pixel with a variance of about
-// 4^k (1 / a_k^2 + 4 / a_(k+1)^2), since a stripe's far edge belongs to a coarser bit of twice its period or more.
-// Bit k is therefore dropped where a_k < a_(k+2) / 4.
+// Defocus and subsurface scattering wash stripes out, the finest first. With amplitudes a0, a1, a2, ... of
+// the bits' differences (root mean square, noise taken off), stripes of bit k place a pixel with a variance
+// of about 4^k (1 / a_k^2 + 4 / a_(k+1)^2), since a stripe's far edge belongs to a coarser bit of twice its
+// period or more. Bit k is therefore dropped where a_k < a_(k+2) / 4.
 StripeResolution find_stripe_resolution(const StripePlanes& planes, const Image<std::uint16_t>& contrast,
                                         const NoiseModel& noise, int max_dropped_bits);
 

@@ -1,8 +1,8 @@
 #include "pipeline/geometry/lens.hpp"
 
-#include <cmath>
-
 #include "pipeline/geometry/distortion.hpp"
+
+#include <cmath>
 
 namespace bodyscan {
 

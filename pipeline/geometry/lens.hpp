@@ -1,10 +1,10 @@
 #pragma once
 
+#include "pipeline/base/image.hpp"
+
 #include <array>
 
 #include <Eigen/Core>
-
-#include "pipeline/base/image.hpp"
 
 namespace bodyscan {
 

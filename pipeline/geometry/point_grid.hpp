@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
-
 #include "pipeline/base/image.hpp"
+
+#include <cmath>
 
 namespace bodyscan {
 

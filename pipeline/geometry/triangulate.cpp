@@ -1,13 +1,13 @@
 #include "pipeline/geometry/triangulate.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+#include "pipeline/base/parallel.hpp"
+#include "pipeline/geometry/distortion.hpp"
+
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include "pipeline/base/instruction_set.hpp"
-#include "pipeline/base/parallel.hpp"
-#include "pipeline/geometry/distortion.hpp"
 
 namespace bodyscan {
 namespace {
@@ -17,8 +17,11 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 struct LensParameters {
   explicit LensParameters(const Lens& lens)
-      : fx(static_cast<float>(lens.fx)), fy(static_cast<float>(lens.fy)), cx(static_cast<float>(lens.cx)),
-        cy(static_cast<float>(lens.cy)), distortion(lens.distortion) {}
+      : fx(static_cast<float>(lens.fx)),
+        fy(static_cast<float>(lens.fy)),
+        cx(static_cast<float>(lens.cx)),
+        cy(static_cast<float>(lens.cy)),
+        distortion(lens.distortion) {}
   float fx;
   float fy;
   float cx;
@@ -27,9 +30,11 @@ struct LensParameters {
 };
 
 struct Scene {
-  explicit Scene(const Calibration& calibration) : camera(calibration.camera), projector(calibration.projector) {
+  explicit Scene(const Calibration& calibration)
+      : camera(calibration.camera), projector(calibration.projector) {
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) r[i][j] = static_cast<float>(calibration.projector_from_camera.rotation(i, j));
+      for (int j = 0; j < 3; ++j)
+        r[i][j] = static_cast<float>(calibration.projector_from_camera.rotation(i, j));
       t[i] = static_cast<float>(calibration.projector_from_camera.translation(i));
     }
   }
@@ -89,13 +94,14 @@ struct Depths {
       const float row_weight = has_row ? 1 / (in.row_sigma[i] * in.row_sigma[i]) : 0;
       const float column_weight = has_column ? 1 / (in.column_sigma[i] * in.column_sigma[i]) : 0;
 
-      // Without distortion the point lies where the ray meets the plane of the row or of the column; start from
-      // the one that fixes the depth better.
+      // Without distortion the point lies where the ray meets the plane of the row or of the column; start
+      // from the one that fixes the depth better.
       const float y0 = (row - p.cy) / p.fy;
       const float x0 = (column - p.cx) / p.fx;
       const float row_divisor = y0 * qz - qy;
       const float column_divisor = x0 * qz - qx;
-      const bool by_row = row_divisor * row_divisor * row_weight >= column_divisor * column_divisor * column_weight;
+      const bool by_row =
+          row_divisor * row_divisor * row_weight >= column_divisor * column_divisor * column_weight;
       float z = by_row ? (s.t[1] - y0 * s.t[2]) / row_divisor : (s.t[0] - x0 * s.t[2]) / column_divisor;
 
       float information = 0;
@@ -125,21 +131,26 @@ struct Depths {
                            column_error * column_error * column_weight / (1 + calibration * column_weight);
       const float deviation = 1 / std::sqrt(information);
       const bool agree = misfit <= options.max_disagreement * options.max_disagreement;
-      const bool good = (has_row | has_column) & (z > 0) & (behind > 0) & (deviation <= options.max_sigma_mm) & agree;
+      const bool good =
+          (has_row | has_column) & (z > 0) & (behind > 0) & (deviation <= options.max_sigma_mm) & agree;
       depth[i] = good ? z : none;
       sigma[i] = deviation;
     }
   }
 };
 
-std::string text_of(Size size) { return std::to_string(size.width) + " x " + std::to_string(size.height); }
+std::string text_of(Size size) {
+  return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
 
 }  // namespace
 
 Expected<void> TriangulateOptions::check() const {
   if (!(max_sigma_mm > 0)) return tl::unexpected(Error{ErrorKind::usage, "max_sigma_mm must be positive"});
-  if (!(calibration_px >= 0)) return tl::unexpected(Error{ErrorKind::usage, "calibration_px must not be negative"});
-  if (!(max_disagreement > 0)) return tl::unexpected(Error{ErrorKind::usage, "max_disagreement must be positive"});
+  if (!(calibration_px >= 0))
+    return tl::unexpected(Error{ErrorKind::usage, "calibration_px must not be negative"});
+  if (!(max_disagreement > 0))
+    return tl::unexpected(Error{ErrorKind::usage, "max_disagreement must be positive"});
   return {};
 }
 
@@ -166,14 +177,16 @@ Expected<PointGrid> triangulate(const Correspondence& correspondence, const Cali
     for (int y = first; y < last; ++y) {
       const auto& rows = correspondence.rows;
       const auto& columns = correspondence.columns;
-      const Measured measured{rows ? rows->coordinate.row(y) : missing.data(), rows ? rows->sigma.row(y) : unit.data(),
+      const Measured measured{rows ? rows->coordinate.row(y) : missing.data(),
+                              rows ? rows->sigma.row(y) : unit.data(),
                               columns ? columns->coordinate.row(y) : missing.data(),
                               columns ? columns->sigma.row(y) : unit.data()};
       run_kernel<Rays>(&scene.camera, y, size.width, ray_x.data(), ray_y.data());
       run_kernel<Depths>(&scene, options, measured, size.width, static_cast<const float*>(ray_x.data()),
                          static_cast<const float*>(ray_y.data()), depth.data(), grid.sigma_mm.row(y));
       Point3f* points = grid.points.row(y);
-      for (std::size_t x = 0; x < width; ++x) points[x] = {ray_x[x] * depth[x], ray_y[x] * depth[x], depth[x]};
+      for (std::size_t x = 0; x < width; ++x)
+        points[x] = {ray_x[x] * depth[x], ray_y[x] * depth[x], depth[x]};
     }
   });
   return grid;

@@ -11,11 +11,14 @@ std::string describe(const Pattern& pattern) {
          std::to_string(pattern.bit) + (pattern.inverted ? " inverted" : "");
 }
 
-int gray_bits(int count) { return count > 1 ? std::bit_width(static_cast<unsigned>(count - 1)) : 0; }
+int gray_bits(int count) {
+  return count > 1 ? std::bit_width(static_cast<unsigned>(count - 1)) : 0;
+}
 
 Expected<PatternSequence> make_sequence(Size projector, const SequenceOptions& options) {
   constexpr int max_side = 1 << 15;
-  if (projector.width < 2 || projector.height < 2 || projector.width > max_side || projector.height > max_side)
+  if (projector.width < 2 || projector.height < 2 || projector.width > max_side ||
+      projector.height > max_side)
     return tl::unexpected(Error{ErrorKind::usage, "projector size must lie in 2 x 2 to 32768 x 32768"});
   if (!options.rows && !options.columns)
     return tl::unexpected(Error{ErrorKind::usage, "a sequence needs rows, columns or both"});

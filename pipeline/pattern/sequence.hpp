@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
+
+#include <string>
+#include <vector>
 
 namespace bodyscan {
 
@@ -40,7 +40,9 @@ struct PatternSequence {
 // Number of Gray-code bits for `count` rows or columns: ceil(log2 count).
 int gray_bits(int count);
 
-constexpr unsigned gray_code(unsigned value) { return value ^ (value >> 1); }
+constexpr unsigned gray_code(unsigned value) {
+  return value ^ (value >> 1);
+}
 
 // The thesis's order: white, black, then bit by bit, coarsest first, rows before columns.
 Expected<PatternSequence> make_sequence(Size projector, const SequenceOptions& options = {});

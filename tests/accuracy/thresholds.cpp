@@ -4,7 +4,7 @@ namespace bodyscan {
 
 std::vector<Thresholds> thresholds() {
   std::vector<Thresholds> all;
-  all.push_back({.scene = "spheres", .rms = 0.037, .share_wrong = 5e-5, .completeness = 0.999});
+  all.push_back({.scene = "spheres", .rms = 0.037, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.020;
   all.back().sphere_form = 0.12;
@@ -26,7 +26,7 @@ std::vector<Thresholds> thresholds() {
   all.back().mole_contrast = 0.85;
   all.back().mole_coverage = 0.50;
 
-  all.push_back({.scene = "columns", .rms = 0.034, .share_wrong = 5e-5, .completeness = 0.999});
+  all.push_back({.scene = "columns", .rms = 0.034, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.014;
   all.back().sphere_form = 0.12;
@@ -48,19 +48,19 @@ std::vector<Thresholds> thresholds() {
   all.back().bump_3mm_kept = 0.57;
   all.back().bump_5mm_kept = 0.81;
 
-  all.push_back({.scene = "roll_90", .rms = 0.034, .share_wrong = 5e-5, .completeness = 0.999});
+  all.push_back({.scene = "roll_90", .rms = 0.034, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.012;
   all.back().sphere_form = 0.105;
   all.back().flatness = 0.175;
 
-  all.push_back({.scene = "roll_180", .rms = 0.037, .share_wrong = 5e-5, .completeness = 0.999});
+  all.push_back({.scene = "roll_180", .rms = 0.037, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.020;
   all.back().sphere_form = 0.11;
   all.back().flatness = 0.17;
 
-  all.push_back({.scene = "roll_30", .rms = 0.042, .share_wrong = 5e-5, .completeness = 0.999});
+  all.push_back({.scene = "roll_30", .rms = 0.042, .share_wrong = 8e-5, .completeness = 0.999});
   all.back().sphere_spacing = 0.003;
   all.back().sphere_diameter = 0.014;
   all.back().sphere_form = 0.145;
