@@ -1,11 +1,14 @@
 #pragma once
 
+#include "pipeline/base/pixel_memory.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace bodyscan {
@@ -26,7 +29,11 @@ class Image {
  public:
   Image() = default;
   // Pixels are left uninitialised.
-  explicit Image(Size size) : size_(size), pixels_(std::make_unique_for_overwrite<Pixel[]>(size.area())) {}
+  explicit Image(Size size)
+      : size_(size), pixels_(static_cast<Pixel*>(allocate_pixels(size.area() * sizeof(Pixel)))) {
+    static_assert(std::is_trivially_destructible_v<Pixel>);
+    std::uninitialized_default_construct_n(pixels_.get(), size.area());
+  }
   Image(Size size, Pixel fill) : Image(size) { std::fill_n(pixels_.get(), size.area(), fill); }
   Image(Image&& other) noexcept : size_(std::exchange(other.size_, {})), pixels_(std::move(other.pixels_)) {}
   Image& operator=(Image&& other) noexcept {
@@ -62,7 +69,7 @@ class Image {
   }
 
   Size size_;
-  std::unique_ptr<Pixel[]> pixels_;
+  std::unique_ptr<Pixel[], FreePixels> pixels_;
 };
 
 using Rgb8 = std::array<std::uint8_t, 3>;

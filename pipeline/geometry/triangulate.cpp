@@ -4,9 +4,11 @@
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/geometry/distortion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bodyscan {
@@ -44,13 +46,14 @@ struct Scene {
   float t[3];
 };
 
-// Camera rays (x/z, y/z) of one row of pixels.
+// Camera rays (x/z, y/z) of columns [begin, end) of one row of pixels.
 struct Rays {
-  BODYSCAN_KERNEL void run(const LensParameters* lens, int y, int width, float* ray_x, float* ray_y) {
+  BODYSCAN_KERNEL void run(const LensParameters* lens, int y, int begin, int end, float* ray_x,
+                           float* ray_y) {
     const Distortion<float> distortion = lens->distortion;
     const float yd = (static_cast<float>(y) - lens->cy) / lens->fy;
     BODYSCAN_VECTORIZE
-    for (int x = 0; x < width; ++x) {
+    for (int x = begin; x < end; ++x) {
       const float xd = (static_cast<float>(x) - lens->cx) / lens->fx;
       float xi = xd;
       float yi = yd;
@@ -77,12 +80,12 @@ struct Measured {
 };
 
 struct Depths {
-  BODYSCAN_KERNEL void run(const Scene* scene, TriangulateOptions options, Measured in, int width,
+  BODYSCAN_KERNEL void run(const Scene* scene, TriangulateOptions options, Measured in, int begin, int end,
                            const float* ray_x, const float* ray_y, float* depth, float* sigma) {
     const Scene s = *scene;
     const LensParameters& p = s.projector;
     BODYSCAN_VECTORIZE
-    for (int i = 0; i < width; ++i) {
+    for (int i = begin; i < end; ++i) {
       const float qx = s.r[0][0] * ray_x[i] + s.r[0][1] * ray_y[i] + s.r[0][2];
       const float qy = s.r[1][0] * ray_x[i] + s.r[1][1] * ray_y[i] + s.r[1][2];
       const float qz = s.r[2][0] * ray_x[i] + s.r[2][1] * ray_y[i] + s.r[2][2];
@@ -139,6 +142,16 @@ struct Depths {
   }
 };
 
+// The columns outside of which nothing was measured.
+std::pair<int, int> measured_range(const Measured& in, int width) {
+  const auto known = [&](int x) { return in.row[x] == in.row[x] || in.column[x] == in.column[x]; };
+  int begin = 0;
+  while (begin < width && !known(begin)) ++begin;
+  int end = width;
+  while (end > begin && !known(end - 1)) --end;
+  return {begin, end};
+}
+
 std::string text_of(Size size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
@@ -181,12 +194,14 @@ Expected<PointGrid> triangulate(const Correspondence& correspondence, const Cali
                               rows ? rows->sigma.row(y) : unit.data(),
                               columns ? columns->coordinate.row(y) : missing.data(),
                               columns ? columns->sigma.row(y) : unit.data()};
-      run_kernel<Rays>(&scene.camera, y, size.width, ray_x.data(), ray_y.data());
-      run_kernel<Depths>(&scene, options, measured, size.width, static_cast<const float*>(ray_x.data()),
+      const auto [begin, end] = measured_range(measured, size.width);
+      run_kernel<Rays>(&scene.camera, y, begin, end, ray_x.data(), ray_y.data());
+      run_kernel<Depths>(&scene, options, measured, begin, end, static_cast<const float*>(ray_x.data()),
                          static_cast<const float*>(ray_y.data()), depth.data(), grid.sigma_mm.row(y));
       Point3f* points = grid.points.row(y);
-      for (std::size_t x = 0; x < width; ++x)
-        points[x] = {ray_x[x] * depth[x], ray_y[x] * depth[x], depth[x]};
+      std::fill(points, points + begin, Point3f{none, none, none});
+      for (int x = begin; x < end; ++x) points[x] = {ray_x[x] * depth[x], ray_y[x] * depth[x], depth[x]};
+      std::fill(points + end, points + size.width, Point3f{none, none, none});
     }
   });
   return grid;
