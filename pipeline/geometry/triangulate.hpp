@@ -8,7 +8,7 @@
 namespace bodyscan {
 
 struct TriangulateOptions {
-  float max_sigma_mm = 0.3F;    // a point whose depth is less certain is left out
+  float max_sigma_mm = 0.4F;    // a point whose depth is less certain is left out
   float max_disagreement = 4;   // rows against columns, in standard deviations of their difference
   float calibration_px = 0.3F;  // projector px: what the calibration adds to that deviation
 
