@@ -21,6 +21,9 @@ ExitStatus run(const Action& action) {
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
     return ExitStatus::file;
+  } catch (const std::exception& error) {
+    print_error(error.what());
+    return ExitStatus::file;
   }
 }
 

@@ -35,18 +35,32 @@ Expected<void> check_fit(const Calibration& calibration, const CaptureFolder& ca
       .and_then([&] { return check("camera_size", calibration.camera.size, "camera", capture.size()); });
 }
 
-}  // namespace
-
-Expected<void> check_paths(const ReconstructOptions& options) {
+std::vector<std::filesystem::path> outputs_of(const ReconstructOptions& options) {
   std::vector<std::filesystem::path> outputs{options.model};
   for (const auto* path : {&options.report, &options.preview, &options.depth, &options.rows})
     if (*path) outputs.push_back(**path);
-  return check_distinct(outputs, std::array{options.calibration, options.capture / "capture.json"});
+  return outputs;
+}
+
+Expected<void> check_photographs_kept(const ReconstructOptions& options, const CaptureFolder& capture) {
+  std::vector<std::filesystem::path> photographs;
+  for (const ManifestFrame& frame : capture.manifest().frames)
+    photographs.push_back(options.capture / frame.file);
+  return check_distinct(outputs_of(options), photographs);
+}
+
+}  // namespace
+
+Expected<void> check_paths(const ReconstructOptions& options) {
+  return check_distinct(outputs_of(options),
+                        std::array{options.calibration, options.capture / "capture.json"});
 }
 
 Expected<ReconstructInputs> open_inputs(const ReconstructOptions& options) {
   Expected<CaptureFolder> capture = CaptureFolder::open(options.capture);
   if (!capture) return tl::unexpected(capture.error());
+  if (Expected<void> kept = check_photographs_kept(options, *capture); !kept)
+    return tl::unexpected(kept.error());
   const Expected<std::vector<std::byte>> file = read_file(options.calibration, max_calibration_bytes);
   if (!file) return tl::unexpected(file.error());
   Expected<Calibration> calibration = parse_calibration(as_text(*file), options.calibration.string());

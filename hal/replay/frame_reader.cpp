@@ -2,6 +2,7 @@
 
 #include "pipeline/base/parallel.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <map>
 #include <memory>
@@ -10,6 +11,9 @@
 
 namespace bodyscan {
 namespace {
+
+// Frames in memory at once beside the one being consumed: more cores do not decompress further ahead.
+constexpr int most_loading = 4;
 
 // One frame in memory, with the error of loading it.
 struct Slot {
@@ -24,7 +28,8 @@ class FrameReader {
  public:
   FrameReader(const CaptureFolder& capture, const std::function<Expected<void>(const Frame&)>& consume)
       : capture_(capture), consume_(consume) {
-    for (int i = 0; i < thread_count() + 1; ++i) free_.push_back(std::make_unique<Slot>());
+    for (int i = 0; i < std::min(thread_count(), most_loading) + 1; ++i)
+      free_.push_back(std::make_unique<Slot>());
   }
 
   void work() try {

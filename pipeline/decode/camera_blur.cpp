@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <vector>
 
 namespace bodyscan {
@@ -195,8 +194,7 @@ Regression regress(const AxisCorrespondence& axis, const FloatImage& pull,
                    const Image<std::uint16_t>& contrast, const Image<Gradient>& gradients,
                    std::uint16_t bright) {
   const FloatImage& u = axis.coordinate;
-  Regression all;
-  std::mutex mutex;
+  std::vector<Regression> tasks(static_cast<std::size_t>(u.height() / rows_a_task + 1));
   parallel_for(2, u.height() - 2, rows_a_task, [&](int first, int last) {
     Regression here;
     for (int y = first; y < last; ++y) {
@@ -210,9 +208,10 @@ Regression regress(const AxisCorrespondence& axis, const FloatImage& pull,
                  u(x - dx, y - dy) - 2 * u(x, y) + u(x + dx, y + dy), axis.sigma(x, y));
       }
     }
-    const std::lock_guard lock(mutex);
-    all.add(here);
+    tasks[static_cast<std::size_t>(first / rows_a_task)] = here;
   });
+  Regression all;  // summed in order, so that the result does not depend on the threads
+  for (const Regression& task : tasks) all.add(task);
   return all;
 }
 

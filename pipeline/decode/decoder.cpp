@@ -128,7 +128,7 @@ Expected<void> Decoder::settle_response(const Luma& pattern, const Luma& inverse
   auto used = use_response(test.instead.value_or(response_));
   if (!used) return used;
   for (auto* planes : {&rows_, &columns_})
-    if (test.instead && *planes) (*planes)->rescale_coarse(before, light_.contrast);
+    if (test.instead && *planes) (*planes)->rescale(before, light_.contrast);
   return {};
 }
 

@@ -31,7 +31,7 @@ float robust_variance(std::vector<float>& departures) {
 NoiseModel measure_noise(const StripePlanes& planes, const Image<std::uint16_t>& contrast) {
   const NoiseModel unmeasured{unmeasured_deviation * unmeasured_deviation, 0};
   const auto& [first, second] = planes.plateau;
-  if (second.empty()) return unmeasured;
+  if (first.empty() || first.size() != second.size()) return unmeasured;
 
   std::array<std::vector<float>, bins> departures;
   constexpr int step = StripePlanes::plateau_step;

@@ -53,13 +53,24 @@ StripePlanes::StripePlanes(Size camera, int count)
   for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
 }
 
-void StripePlanes::rescale_coarse(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
-  constexpr float most = std::numeric_limits<std::uint16_t>::max();
+std::size_t StripePlanes::samples_per_plane() const {
+  const auto samples = [](int side) {
+    return static_cast<std::size_t>((side + plateau_step - 1) / plateau_step);
+  };
+  return samples(gray.width()) * samples(gray.height());
+}
+
+void StripePlanes::rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
+  constexpr std::uint16_t unset = std::numeric_limits<std::uint16_t>::max();
   for (std::size_t i = 0; i < coarse.size().area(); ++i) {
     const float scale =
         static_cast<float>(now.data()[i]) / std::max(static_cast<float>(before.data()[i]), 1.0F);
-    coarse.data()[i] =
-        static_cast<std::uint16_t>(std::min(static_cast<float>(coarse.data()[i]) * scale, most));
+    const auto scaled = [&](auto value, float most) {
+      return static_cast<decltype(value)>(std::clamp(static_cast<float>(value) * scale, -most, most));
+    };
+    if (coarse.data()[i] != unset) coarse.data()[i] = scaled(coarse.data()[i], unset - 1);
+    for (auto& plane : fine)
+      plane.data()[i] = scaled(plane.data()[i], std::numeric_limits<std::int16_t>::max());
   }
   for (auto& samples : plateau) samples.clear();
 }
@@ -71,11 +82,13 @@ void StripePlanes::add_row(int bit, int y, const std::int16_t* difference) {
   else
     run_kernel<AddCoarseBit>(width, bit, difference, gray.row(y), coarse.row(y));
 
-  const int from_coarsest = bit_count - 1 - bit;
-  if (from_coarsest < 2 && bit >= fine_bits && y % plateau_step == 0) {
+  if (bit >= fine_bits && y % plateau_step == 0) {
+    const std::size_t wanted = samples_per_plane();
+    const auto filling =
+        std::ranges::find_if(plateau, [&](const auto& samples) { return samples.size() < wanted; });
+    if (filling == plateau.end()) return;
     for (int x = 0; x < width; x += plateau_step)
-      plateau[static_cast<std::size_t>(from_coarsest)].push_back(
-          static_cast<std::uint16_t>(std::abs(static_cast<int>(difference[x]))));
+      filling->push_back(static_cast<std::uint16_t>(std::abs(static_cast<int>(difference[x]))));
   }
 }
 

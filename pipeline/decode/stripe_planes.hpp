@@ -31,11 +31,12 @@ struct StripePlanes {
   void add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
                    std::span<const std::uint16_t> linear);
 
-  // Takes the coarse differences so far over to another response: the contrasts under the old one and the
-  // new. Zero crossings stay; the noise samples start afresh.
-  void rescale_coarse(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now);
+  // Takes the differences so far over to another response, given the contrasts under the old one and the new.
+  // Zero crossings stay; the noise samples start afresh with the next bits.
+  void rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now);
 
  private:
+  [[nodiscard]] std::size_t samples_per_plane() const;
   void add_row(int bit, int y, const std::int16_t* difference);
 };
 

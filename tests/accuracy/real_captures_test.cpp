@@ -22,8 +22,9 @@ using nlohmann::json;
 
 constexpr double square_mm = 75;
 
-// Of a square's side. The printed sheet itself curls: about a plane of its own, each white square's points have an
-// RMS of 0.11 to 0.21 % (median over the squares), about one plane for the whole board 0.37 to 0.59 %.
+// Of a square's side. The printed sheet itself curls: about a plane of its own, each white square's points
+// have an RMS of 0.11 to 0.21 % (median over the squares), about one plane for the whole board 0.37 to 0.59
+// %.
 constexpr double max_mean_rms = 0.0049;
 constexpr double max_p95 = 0.0130;
 

@@ -127,6 +127,17 @@ TEST_F(Reconstruct, ReplacesAnOlderModel) {
   EXPECT_TRUE(read_text(model()).starts_with("#VRML V2.0 utf8\n"));
 }
 
+TEST_F(Reconstruct, PhotographsAndOtherInputsAreNotOverwritten) {
+  for (const char* input : {"frame_00.png", "capture.json", "calibration.yml"}) {
+    const std::string before = read_text(capture() / input);
+    const ProcessResult run = run_bodyscan(arguments({"--output", model(), "--preview", capture() / input}));
+    EXPECT_EQ(run.status, 2) << input;
+    EXPECT_NE(run.error.find("is an input, not overwritten"), std::string::npos) << run.error;
+    EXPECT_EQ(read_text(capture() / input), before);
+    EXPECT_TRUE(files_in_results().empty());
+  }
+}
+
 TEST_F(Reconstruct, OutputsThatCannotBeWrittenAreNamedBeforeAnythingIsComputed) {
   fs::create_directory(results() / "folder.wrl");
   write_text(results() / "plain", "");

@@ -106,6 +106,18 @@ TEST_P(UnknownResponse, IsFoundInTheCapture) {
   EXPECT_LT(compare(*found.rows, Axis::row, scene, interior(options.camera)).rms, 0.01);
 }
 
+// The two coarsest bits have no edge on this scene, so the response is settled after both.
+TEST_P(UnknownResponse, FoundLateStillHasItsNoiseMeasured) {
+  CaptureOptions options{.response = GetParam(), .bits = 16, .ambient = 0.05};
+  options.read_noise = 0.004;
+  const Scene scene = plane_scene(options, 30);
+  DecodeOptions decoding;
+  decoding.fit.half_width_px = 0;
+  const Correspondence found = decode(capture(scene, options), sequence_of(options), decoding);
+  const Comparison comparison = compare(*found.rows, Axis::row, scene, interior(options.camera));
+  EXPECT_NEAR(std::log(comparison.rms / comparison.mean_sigma), 0, std::log(1.5));
+}
+
 std::string name_of_response(const testing::TestParamInfo<ToneResponse>& tested) {
   constexpr std::array names{"srgb", "linear", "gamma"};
   return names[static_cast<std::size_t>(tested.param.kind)];
