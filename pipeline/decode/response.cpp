@@ -1,5 +1,7 @@
 #include "pipeline/decode/response.hpp"
 
+#include "pipeline/image/srgb.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -7,11 +9,6 @@
 
 namespace bodyscan {
 namespace {
-
-// IEC 61966-2-1, 5.2.
-double srgb_to_linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 double to_linear(const ToneResponse& response, double encoded) {
   switch (response.kind) {

@@ -1,6 +1,7 @@
 #include "pipeline/surface/color.hpp"
 
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/image/srgb.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +9,6 @@
 
 namespace bodyscan {
 namespace {
-
-double srgb_to_linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double linear_to_srgb(double linear) {
-  return linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
 
 std::string text(Size size) {
   return std::to_string(size.width) + " x " + std::to_string(size.height);

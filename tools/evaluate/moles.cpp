@@ -1,6 +1,7 @@
 #include "tools/evaluate/moles.hpp"
 
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/image/srgb.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,13 +15,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// IEC 61966-2-1.
 const std::array<float, 256>& linear_from_srgb() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double v = static_cast<double>(i) / 255;
-      values[i] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+      values[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / 255));
     }
     return values;
   }();

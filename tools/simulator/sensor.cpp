@@ -53,14 +53,6 @@ const std::vector<std::uint8_t>& code_table() {
 
 }  // namespace
 
-double linear_to_srgb(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
-double srgb_to_linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 Sensor::Sensor(double full_well, double read_noise, std::uint64_t seed, std::uint64_t frame)
     : full_well_(static_cast<float>(full_well)),
       read_variance_(static_cast<float>(read_noise * read_noise)),

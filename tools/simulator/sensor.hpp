@@ -1,14 +1,12 @@
 #pragma once
 
+#include "pipeline/image/srgb.hpp"
+
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace bodyscan::simulator {
-
-// The sRGB transfer curve (IEC 61966-2-1), both ways, 0..1.
-double linear_to_srgb(double linear);
-double srgb_to_linear(double encoded);
 
 // A camera's sensor: shot and read noise, then the sRGB curve in 8 bits. The noise is a function of seed,
 // frame and pixel alone, so pictures do not depend on the number of threads.
