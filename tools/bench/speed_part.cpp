@@ -29,6 +29,8 @@ struct FloorTimes {
 };
 
 Expected<void> run_once(Contender& contender) {
+  // A scan makes a new file; replacing one costs its file system a flush.
+  fs::remove(contender.model);
   settle_disk();
   const Expected<ProcessUsage> usage = run_successfully(contender.command);
   if (!usage) return tl::unexpected(usage.error());
