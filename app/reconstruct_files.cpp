@@ -1,6 +1,7 @@
 #include "app/reconstruct_files.hpp"
 
 #include "pipeline/base/read_file.hpp"
+#include "pipeline/base/size_text.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 
 namespace bodyscan {
 namespace {
-
-std::string text_of(Size size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
 
 std::string name_and_checksum(const std::filesystem::path& path, const std::vector<std::byte>& file) {
   std::array<char, 16> checksum{};

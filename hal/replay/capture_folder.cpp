@@ -1,6 +1,7 @@
 #include "hal/replay/capture_folder.hpp"
 
 #include "pipeline/base/read_file.hpp"
+#include "pipeline/base/size_text.hpp"
 
 #include <string>
 #include <utility>
@@ -11,10 +12,6 @@ namespace {
 // Decode order starts with these two.
 constexpr int white_index = 0;
 constexpr int black_index = 1;
-
-std::string text_of(Size size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
 
 }  // namespace
 

@@ -92,43 +92,42 @@ AxisCorrespondence locate_stripes(const StripePlanes& planes, const Illumination
       find_stripe_resolution(planes, light.contrast, noise, options.max_dropped_bits);
   const EdgeRatioLimits limits{options.min_direct_share, options.min_signal_to_noise, noise, count};
 
+  // Calls visit(y, dropped, measured row) for every camera row and number of dropped bits that occurs in it.
+  const auto for_each_measured_row = [&](const auto& visit) {
+    parallel_for(0, camera.height, EdgeProfile::tile_px, [&](int first, int last) {
+      RowBuffer buffer(camera.width);
+      for (int y = first; y < last; ++y) {
+        for (int dropped = 0; dropped < levels; ++dropped) {
+          if (!row_has_level(resolution, y, dropped)) continue;
+          measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(),
+                             buffer.cell.data(), buffer.deviation.data());
+          visit(y, dropped, buffer);
+        }
+      }
+    });
+  };
+
   std::vector<EdgeProfile::Histogram> histograms;
   for (int dropped = 0; dropped < levels; ++dropped) histograms.emplace_back(camera);
-  parallel_for(0, camera.height, EdgeProfile::tile_px, [&](int first, int last) {
-    RowBuffer buffer(camera.width);
-    for (int y = first; y < last; ++y) {
-      for (int dropped = 0; dropped < levels; ++dropped) {
-        if (!row_has_level(resolution, y, dropped)) continue;
-        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(),
-                           buffer.cell.data(), buffer.deviation.data());
-        for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
-          histograms[static_cast<std::size_t>(dropped)].add_run(y, begin, end, buffer.ratio.data(),
-                                                                buffer.cell.data());
-        });
-      }
-    }
+  for_each_measured_row([&](int y, int dropped, const RowBuffer& buffer) {
+    for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
+      histograms[static_cast<std::size_t>(dropped)].add_run(y, begin, end, buffer.ratio.data(),
+                                                            buffer.cell.data());
+    });
   });
   std::vector<EdgeProfile> profiles;
   for (int dropped = 0; dropped < levels; ++dropped)
     profiles.emplace_back(histograms[static_cast<std::size_t>(dropped)], dropped);
 
   AxisCorrespondence result{FloatImage(camera), FloatImage(camera)};
-  parallel_for(0, camera.height, EdgeProfile::tile_px, [&](int first, int last) {
-    RowBuffer buffer(camera.width);
-    for (int y = first; y < last; ++y) {
-      for (int dropped = 0; dropped < levels; ++dropped) {
-        if (!row_has_level(resolution, y, dropped)) continue;
-        measure_edge_ratio(planes, light.contrast, y, dropped, limits, buffer.ratio.data(),
-                           buffer.cell.data(), buffer.deviation.data());
-        profiles[static_cast<std::size_t>(dropped)].coefficients_of_row(y, camera.width,
-                                                                        buffer.coefficients.data());
-        for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
-          run_kernel<Place>(begin, end, camera.width, dropped, buffer.ratio.data(), buffer.cell.data(),
-                            buffer.deviation.data(), buffer.coefficients.data(), result.coordinate.row(y),
-                            result.sigma.row(y));
-        });
-      }
-    }
+  for_each_measured_row([&](int y, int dropped, RowBuffer& buffer) {
+    profiles[static_cast<std::size_t>(dropped)].coefficients_of_row(y, camera.width,
+                                                                    buffer.coefficients.data());
+    for_each_run(resolution, y, dropped, camera.width, [&](int begin, int end) {
+      run_kernel<Place>(begin, end, camera.width, dropped, buffer.ratio.data(), buffer.cell.data(),
+                        buffer.deviation.data(), buffer.coefficients.data(), result.coordinate.row(y),
+                        result.sigma.row(y));
+    });
   });
   return result;
 }

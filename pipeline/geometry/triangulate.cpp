@@ -2,6 +2,7 @@
 
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/base/size_text.hpp"
 #include "pipeline/geometry/distortion.hpp"
 
 #include <algorithm>
@@ -150,10 +151,6 @@ std::pair<int, int> measured_range(const Measured& in, int width) {
   int end = width;
   while (end > begin && !known(end - 1)) --end;
   return {begin, end};
-}
-
-std::string text_of(Size size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "pipeline/surface/color.hpp"
 
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/base/size_text.hpp"
 #include "pipeline/image/srgb.hpp"
 
 #include <algorithm>
@@ -8,14 +9,6 @@
 #include <string>
 
 namespace bodyscan {
-namespace {
-
-std::string text(Size size) {
-  return std::to_string(size.width) + " x " + std::to_string(size.height);
-}
-
-}  // namespace
-
 Expected<void> ColorOptions::check() const {
   if (!correction || std::ranges::all_of(*correction, [](double value) { return std::isfinite(value); })) {
     return {};
@@ -42,8 +35,8 @@ const SurfaceColor::Curve& SurfaceColor::curve() {
 Expected<SurfaceColor> SurfaceColor::create(const ColorImage8& white, const ColorImage8& black,
                                             const ColorOptions& options) {
   if (!black.empty() && black.size() != white.size()) {
-    return input_error("black frame: " + text(black.size()) + " pixels, the white frame has " +
-                       text(white.size()));
+    return input_error("black frame: " + text_of(black.size()) + " pixels, the white frame has " +
+                       text_of(white.size()));
   }
   if (auto checked = options.check(); !checked) return tl::unexpected(checked.error());
   SurfaceColor color;
