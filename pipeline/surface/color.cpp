@@ -9,6 +9,7 @@
 #include <string>
 
 namespace bodyscan {
+
 Expected<void> ColorOptions::check() const {
   if (!correction || std::ranges::all_of(*correction, [](double value) { return std::isfinite(value); })) {
     return {};
