@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
-#include "pipeline/decode/camera_blur.hpp"
 #include "pipeline/decode/local_fit.hpp"
+#include "pipeline/decode/outshone.hpp"
 #include "pipeline/image/tone_response.hpp"
 
 #include <optional>

@@ -1,9 +1,6 @@
 #include "pipeline/decode/decoder.hpp"
 
 #include "pipeline/base/parallel.hpp"
-#include "pipeline/decode/camera_blur.hpp"
-#include "pipeline/decode/local_fit.hpp"
-#include "pipeline/decode/locate_stripes.hpp"
 #include "pipeline/decode/response.hpp"
 
 #include <atomic>
@@ -127,27 +124,33 @@ Expected<void> Decoder::settle_response(const Luma& pattern, const Luma& inverse
   const Image<std::uint16_t> before = std::move(light_.contrast);
   auto used = use_response(test.instead.value_or(response_));
   if (!used) return used;
-  for (auto* planes : {&rows_, &columns_})
-    if (test.instead && *planes) (*planes)->rescale(before, light_.contrast);
+  for (OneAxis* axis : {&rows_, &columns_})
+    if (test.instead && axis->decoder) axis->decoder->rescale(before, light_.contrast);
   return {};
 }
 
 Expected<void> Decoder::consume_bit(const Frame& frame) {
   const Pattern& pattern = frame.pattern;
-  auto& planes = planes_of(pattern.axis);
-  if (!planes) {
+  OneAxis& axis = of(pattern.axis);
+  if (!axis.decoder) {
     const Size projector = sequence_.projector;
-    planes.emplace(camera_, gray_bits(pattern.axis == Axis::row ? projector.height : projector.width));
+    axis.decoder.emplace(camera_, pattern.axis == Axis::row ? projector.height : projector.width);
   }
   if (!inverses_) {
-    planes->add_against(pattern.bit, frame.luma, middle_, linear_);
+    axis.decoder->add_against(pattern.bit, frame.luma, middle_, linear_, light_);
   } else if (pattern.inverted) {
     if (auto settled = settle_response(held_, frame.luma); !settled) return settled;
-    planes->add(pattern.bit, held_, frame.luma, linear_);
+    axis.decoder->add(pattern.bit, held_, frame.luma, linear_, light_);
   } else {
     copy_luma(frame.luma, held_);
   }
+  if (axis.decoder->complete() && response_settled_ && next_ < sequence_.patterns.size()) finish_axis(axis);
   return {};
+}
+
+void Decoder::finish_axis(OneAxis& axis) {
+  axis.found = axis.decoder->finish(light_, options_);
+  axis.decoder.reset();
 }
 
 Expected<Correspondence> Decoder::finish() {
@@ -164,16 +167,10 @@ Expected<Correspondence> Decoder::finish() {
   white_ = {};
   black_ = {};
   middle_ = {};
-  const auto locate = [&](std::optional<StripePlanes>& planes, int count,
-                          std::optional<AxisCorrespondence>& axis) {
-    if (!planes) return;
-    AxisCorrespondence raw = locate_stripes(*planes, light_, count, options_);
-    planes.reset();
-    correct_camera_blur(raw, light_.contrast, options_.brightness_edges);
-    axis = fit_locally(std::move(raw), options_.fit);
-  };
-  locate(rows_, sequence_.projector.height, found.rows);
-  locate(columns_, sequence_.projector.width, found.columns);
+  for (OneAxis* axis : {&rows_, &columns_})
+    if (axis->decoder) finish_axis(*axis);
+  found.rows = std::move(rows_.found);
+  found.columns = std::move(columns_.found);
   light_ = {};
   found.pixels_decoded = count_decoded(found);
   return found;

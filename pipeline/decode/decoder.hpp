@@ -1,10 +1,10 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
+#include "pipeline/decode/axis_decoder.hpp"
 #include "pipeline/decode/correspondence.hpp"
 #include "pipeline/decode/decode_options.hpp"
 #include "pipeline/decode/illumination.hpp"
-#include "pipeline/decode/stripe_planes.hpp"
 #include "pipeline/image/frame.hpp"
 #include "pipeline/pattern/sequence.hpp"
 
@@ -28,13 +28,20 @@ class Decoder {
   Expected<Correspondence> finish();
 
  private:
+  // An axis is decoded once its last frame has come: at once where other frames follow, else by `finish`.
+  struct OneAxis {
+    std::optional<AxisDecoder> decoder;
+    std::optional<AxisCorrespondence> found;
+  };
+
   Decoder(PatternSequence sequence, const DecodeOptions& options);
 
   Expected<void> consume_white_black(const Frame& frame);
   Expected<void> consume_bit(const Frame& frame);
   Expected<void> settle_response(const Luma& pattern, const Luma& inverse);
   Expected<void> use_response(const ToneResponse& response);
-  std::optional<StripePlanes>& planes_of(Axis axis) { return axis == Axis::row ? rows_ : columns_; }
+  void finish_axis(OneAxis& axis);
+  OneAxis& of(Axis axis) { return axis == Axis::row ? rows_ : columns_; }
 
   PatternSequence sequence_;
   DecodeOptions options_;
@@ -50,8 +57,8 @@ class Decoder {
   Luma held_;                    // a pattern until its inverse comes
   Image<std::uint16_t> middle_;  // white plus black, for sequences without inverses
   Illumination light_;
-  std::optional<StripePlanes> rows_;
-  std::optional<StripePlanes> columns_;
+  OneAxis rows_;
+  OneAxis columns_;
 };
 
 }  // namespace bodyscan

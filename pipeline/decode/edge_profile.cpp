@@ -1,5 +1,8 @@
 #include "pipeline/decode/edge_profile.hpp"
 
+#include "pipeline/base/instruction_set.hpp"
+#include "pipeline/base/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,34 +18,44 @@ constexpr int terms = EdgeProfile::terms;
 // and keep a tile honest whose stripes lock to the camera's pixels.
 constexpr double prior_samples = 300;
 
-using Density = std::array<double, bins>;
+using Density = std::array<float, bins>;
 
 // Binomial passes over the tiles: the window must fade out, since a hard edge cuts through stripes and makes
 // some positions in them more frequent than others. Doubled with each dropped bit, as the stripes are.
 constexpr int blur_passes = 4;
 
-// One pass of 1 2 1 in both directions; what lies beyond the border counts as empty.
-void blur(Image<Density>& tiles) {
-  const auto pass = [](Density* first, std::ptrdiff_t stride, int count) {
+// 1 2 1 over four, along `count` tiles that lie `stride` apart; what lies beyond the border counts as empty.
+struct BlurLine {
+  BODYSCAN_KERNEL void run(Density* first, std::ptrdiff_t stride, int count) {
     Density before{};
     for (int i = 0; i < count; ++i) {
       Density& here = first[i * stride];
-      const Density old = here;
-      for (std::size_t bin = 0; bin < bins; ++bin)
-        here[bin] = 2 * old[bin] + before[bin] + (i + 1 < count ? first[(i + 1) * stride][bin] : 0);
-      before = old;
+      const Density& after = first[(i + 1 < count ? i + 1 : i) * stride];
+      const float has_after = i + 1 < count ? 0.25F : 0;
+      BODYSCAN_VECTORIZE
+      for (std::size_t bin = 0; bin < bins; ++bin) {
+        const float old = here[bin];
+        here[bin] = 0.5F * old + 0.25F * before[bin] + has_after * after[bin];
+        before[bin] = old;
+      }
     }
-  };
-  for (int y = 0; y < tiles.height(); ++y) pass(tiles.row(y), 1, tiles.width());
-  for (int x = 0; x < tiles.width(); ++x) pass(tiles.data() + x, tiles.width(), tiles.height());
-  for (Density& tile : tiles.pixels())
-    for (double& count : tile) count /= 16;
+  }
+};
+
+// One pass in both directions.
+void blur(Image<Density>& tiles) {
+  parallel_for(0, tiles.height(), 4, [&](int first, int last) {
+    for (int y = first; y < last; ++y) run_kernel<BlurLine>(tiles.row(y), 1, tiles.width());
+  });
+  parallel_for(0, tiles.width(), 4, [&](int first, int last) {
+    for (int x = first; x < last; ++x) run_kernel<BlurLine>(tiles.data() + x, tiles.width(), tiles.height());
+  });
 }
 
 // Least-squares fit of the cumulative distribution at the bin edges.
 std::array<float, terms> fit(const Density& density) {
   double total = 0;
-  for (const double count : density) total += count;
+  for (const float count : density) total += static_cast<double>(count);
   std::array<float, terms> coefficients{};
   if (total <= 0) return coefficients;
 
@@ -50,9 +63,9 @@ std::array<float, terms> fit(const Density& density) {
   Eigen::Matrix<double, terms, 1> right = Eigen::Matrix<double, terms, 1>::Zero();
   double below = 0;
   for (std::size_t bin = 0; bin + 1 < bins; ++bin) {
-    below += density[bin];
+    below += static_cast<double>(density[bin]);
     const double ratio = static_cast<double>(bin + 1) / bins;
-    const double weight = (density[bin] + density[bin + 1]) / total + 0.2 / bins;
+    const double weight = static_cast<double>(density[bin] + density[bin + 1]) / total + 0.2 / bins;
     Eigen::Matrix<double, terms, 1> basis;
     double value = ratio * (1 - ratio);
     for (int term = 0; term < terms; ++term, value *= 2 * ratio - 1) basis[term] = value;
@@ -65,6 +78,28 @@ std::array<float, terms> fit(const Density& density) {
   return coefficients;
 }
 
+// Index in Histogram::Counts.
+struct PlaceInHistogram {
+  BODYSCAN_KERNEL void run(int count, const float* ratios, const std::uint16_t* cells,
+                           std::uint16_t* places) {
+    BODYSCAN_VECTORIZE
+    for (int i = 0; i < count; ++i) {
+      const bool there = ratios[i] == ratios[i];
+      const int bin = static_cast<int>((there ? ratios[i] : 0) * bins);
+      const int inside = bin < bins - 1 ? bin : bins - 1;
+      const int place = static_cast<int>(EdgeProfile::kind_of(cells[i])) * bins + inside;
+      places[i] = static_cast<std::uint16_t>(there ? place : EdgeProfile::kinds * bins);
+    }
+  }
+};
+
+struct Ramp {
+  BODYSCAN_KERNEL void run(int count, float start, float step, float* values) {
+    BODYSCAN_VECTORIZE
+    for (int i = 0; i < count; ++i) values[i] = start + step * static_cast<float>(i);
+  }
+};
+
 }  // namespace
 
 EdgeProfile::Histogram::Histogram(Size camera)
@@ -72,33 +107,40 @@ EdgeProfile::Histogram::Histogram(Size camera)
 
 void EdgeProfile::Histogram::add_run(int y, int begin, int end, const float* ratios,
                                      const std::uint16_t* cells) {
-  auto* tiles = counts_.row(y / tile_px);
-  for (int x = begin; x < end; ++x) {
-    if (std::isnan(ratios[x])) continue;
-    const int bin = std::min(static_cast<int>(ratios[x] * bins), bins - 1);
-    ++tiles[x / tile_px][kind_of(cells[x])][static_cast<std::size_t>(bin)];
+  std::array<std::uint16_t, tile_px> places;
+  for (int x = begin; x < end;) {
+    const int stop = std::min(end, (x / tile_px + 1) * tile_px);
+    run_kernel<PlaceInHistogram>(stop - x, ratios + x, cells + x, places.data());
+    Counts& counts = counts_(x / tile_px, y / tile_px);
+    for (int i = 0; i < stop - x; ++i) ++counts[places[static_cast<std::size_t>(i)]];
+    x = stop;
   }
 }
 
 EdgeProfile::EdgeProfile(const Histogram& histogram, int dropped) : tiles_(histogram.counts_.size()) {
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     Image<Density> densities(tiles_.size());
-    Density whole{};
+    std::array<double, bins> whole{};
     double whole_total = 1e-9;
     for (std::size_t i = 0; i < densities.size().area(); ++i) {
       for (std::size_t bin = 0; bin < bins; ++bin) {
-        const double count = histogram.counts_.data()[i][kind][bin];
-        densities.data()[i][bin] = count;
+        const std::uint32_t count = histogram.counts_.data()[i][kind * bins + bin];
+        densities.data()[i][bin] = static_cast<float>(count);
         whole[bin] += count;
         whole_total += count;
       }
     }
     for (int pass = 0; pass < blur_passes << dropped; ++pass) blur(densities);
-    for (std::size_t i = 0; i < densities.size().area(); ++i) {
-      Density density = densities.data()[i];
-      for (std::size_t bin = 0; bin < bins; ++bin) density[bin] += prior_samples * whole[bin] / whole_total;
-      tiles_.data()[i][kind] = fit(density);
-    }
+    parallel_for(0, tiles_.height(), 1, [&](int first, int last) {
+      for (int y = first; y < last; ++y) {
+        for (int x = 0; x < tiles_.width(); ++x) {
+          Density density = densities(x, y);
+          for (std::size_t bin = 0; bin < bins; ++bin)
+            density[bin] += static_cast<float>(prior_samples * whole[bin] / whole_total);
+          tiles_(x, y)[kind] = fit(density);
+        }
+      }
+    });
   }
 }
 
@@ -131,7 +173,7 @@ void EdgeProfile::coefficients_of_row(int y, int width, float* coefficients) con
       const float step = before || left + 1 >= tiles_.width() ? 0 : (b - a) / tile_px;
       const float start = a + (u - static_cast<float>(left)) * (b - a);
       const int stop = std::min(end, width);
-      for (int i = 0; i < stop - x; ++i) out[x + i] = start + step * static_cast<float>(i);
+      run_kernel<Ramp>(stop - x, start, step, out + x);
       x = stop;
     }
   }

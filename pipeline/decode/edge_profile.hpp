@@ -36,7 +36,7 @@ class EdgeProfile {
 
    private:
     friend class EdgeProfile;
-    using Counts = std::array<std::array<std::uint32_t, bins>, kinds>;
+    using Counts = std::array<std::uint32_t, kinds * bins + 1>;  // kind by kind, then what is left out
     Image<Counts> counts_;
   };
 

@@ -2,12 +2,15 @@
 
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/decode/weighted_fit.hpp"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace bodyscan {
@@ -15,6 +18,10 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr int max_radius = 12;
+constexpr int band_rows = 128;  // rows a task measures and fits
+constexpr int tile_columns = 256;
+constexpr float min_sigma = 0.01F;  // projector px: no value weighs more than one of this sigma
+constexpr float noisy = 2;          // times enough_sigma_px: whole squares do no longer do
 
 // Second difference, in projector px, above which neighbours do not lie on one smooth surface; a bump of 0.5
 // mm on 2 mm makes 0.1 px at 3 camera px a mm.
@@ -54,14 +61,40 @@ struct KeepSmooth {
   }
 };
 
+// Weights of a row's pixels for a weighted fit: the same, but a pixel whose neighbours do not tell counts.
+struct WeighUsable {
+  BODYSCAN_KERNEL void run(int width, const float* above, const float* row, const float* below,
+                           const float* sigma, float* weight) {
+    BODYSCAN_VECTORIZE
+    for (int x = 0; x < width; ++x) {
+      const float across = std::abs(row[x - 1] - 2 * row[x] + row[x + 1]);
+      const float along = std::abs(above[x] - 2 * row[x] + below[x]);
+      const float limit = max_bend + max_bend_sigmas * sigma[x];
+      const bool bends = (across >= limit) | (along >= limit);
+      const float variance = sigma[x] * sigma[x] + min_sigma * min_sigma;
+      weight[x] = (row[x] == row[x]) & !bends ? 1 / variance : 0;
+    }
+  }
+};
+
+struct TakeLarger {
+  BODYSCAN_KERNEL void run(int width, const float* coordinate, const float* sigma, float* largest) {
+    BODYSCAN_VECTORIZE
+    for (int x = 0; x < width; ++x) {
+      const float value = coordinate[x] == coordinate[x] ? sigma[x] : 0;
+      largest[x] = value > largest[x] ? value : largest[x];
+    }
+  }
+};
+
 struct FitAcross {
   BODYSCAN_KERNEL void run(int width, int radius, const float* weights, const float* row, float* fitted) {
     BODYSCAN_VECTORIZE
-    for (int x = radius; x < width - radius; ++x) fitted[x] = 0;
+    for (int x = 0; x < width; ++x) fitted[x] = 0;
     for (int i = -radius; i <= radius; ++i) {
       const float weight = weights[i + radius];
       BODYSCAN_VECTORIZE
-      for (int x = radius; x < width - radius; ++x) fitted[x] += weight * row[x + i];
+      for (int x = 0; x < width; ++x) fitted[x] += weight * row[x + i];
     }
   }
 };
@@ -86,71 +119,179 @@ struct TakeFitted {
   }
 };
 
-// Camera pixels a projector pixel, along the steeper image direction; median over the picture.
-float pixels_per_unit(const FloatImage& coordinate) {
-  std::vector<float> slopes;
-  for (int y = 2; y < coordinate.height() - 2; y += 5) {
-    for (int x = 2; x < coordinate.width() - 2; x += 5) {
-      const float across = std::abs(coordinate(x + 2, y) - coordinate(x - 2, y)) / 4;
-      const float down = std::abs(coordinate(x, y + 2) - coordinate(x, y - 2)) / 4;
-      if (across + down > 0) slopes.push_back(std::max(across, down));
+// At most band_rows camera rows of the raw correspondence with what lies around them, undecided beyond the
+// picture.
+class Band {
+ public:
+  Band(Size camera, int margin)
+      : camera_(camera),
+        margin_(margin),
+        coordinate_({camera.width + 2 * margin, band_rows + 2 * margin}, none),
+        sigma_(coordinate_.size(), 0),
+        smooth_(coordinate_.size(), none) {}
+
+  // Camera rows [first, last).
+  void load(const CoordinateRows& raw, int first, int last) {
+    top_ = first - margin_;
+    const int begin = std::max(0, top_);
+    const int end = std::min(camera_.height, last + margin_);
+    raw({begin, end - begin},
+        {coordinate_.row(begin - top_) + margin_, sigma_.row(begin - top_) + margin_, coordinate_.width()});
+    for (int i = 0; i < coordinate_.height(); ++i)
+      if (top_ + i < begin || top_ + i >= end) std::fill_n(coordinate_.row(i), coordinate_.width(), none);
+    for (int i = 1; i + 1 < coordinate_.height(); ++i)
+      run_kernel<KeepSmooth>(coordinate_.width(), static_cast<const float*>(coordinate_.row(i - 1)),
+                             static_cast<const float*>(coordinate_.row(i)),
+                             static_cast<const float*>(coordinate_.row(i + 1)),
+                             static_cast<const float*>(sigma_.row(i)), smooth_.row(i));
+  }
+
+  // From camera column 0 of camera row y.
+  [[nodiscard]] const float* coordinate(int y) const { return coordinate_.row(y - top_) + margin_; }
+  [[nodiscard]] const float* sigma(int y) const { return sigma_.row(y - top_) + margin_; }
+  [[nodiscard]] const float* smooth(int y) const { return smooth_.row(y - top_) + margin_; }
+  [[nodiscard]] std::ptrdiff_t stride() const { return coordinate_.width(); }
+
+ private:
+  Size camera_;
+  int margin_;
+  int top_ = 0;
+  FloatImage coordinate_;
+  FloatImage sigma_;
+  FloatImage smooth_;
+};
+
+struct Tile {
+  int left;
+  int right;
+  int top;
+  int bottom;
+};
+
+float largest_sigma(const Band& raw, const Tile& tile) {
+  std::vector<float> largest(static_cast<std::size_t>(tile.right - tile.left), 0);
+  for (int y = tile.top; y < tile.bottom; ++y)
+    run_kernel<TakeLarger>(tile.right - tile.left, raw.coordinate(y) + tile.left, raw.sigma(y) + tile.left,
+                           largest.data());
+  return *std::ranges::max_element(largest);
+}
+
+// Fits a tile with one radius into `out`, whose values stay where the square is not whole or not needed:
+// where gain_before times the raw sigma is `enough`.
+void fit_whole_squares(const Band& raw, const Tile& tile, const Weights& weights, float gain_before,
+                       float enough, AxisCorrespondence& out) {
+  const int r = weights.radius;
+  const int width = tile.right - tile.left;
+  FloatImage across({width, tile.bottom - tile.top + 2 * r});
+  for (int i = 0; i < across.height(); ++i)
+    run_kernel<FitAcross>(width, r, static_cast<const float*>(weights.at.data()),
+                          raw.smooth(tile.top - r + i) + tile.left, across.row(i));
+  std::vector<float> fitted(static_cast<std::size_t>(width));
+  for (int y = tile.top; y < tile.bottom; ++y) {
+    std::fill(fitted.begin(), fitted.end(), 0.0F);
+    for (int i = 0; i <= 2 * r; ++i)
+      run_kernel<AddWeighted>(width, weights.at[static_cast<std::size_t>(i)],
+                              static_cast<const float*>(across.row(y - tile.top + i)), fitted.data());
+    run_kernel<TakeFitted>(width, weights.gain, gain_before, enough, static_cast<const float*>(fitted.data()),
+                           raw.sigma(y) + tile.left, out.coordinate.row(y) + tile.left,
+                           out.sigma.row(y) + tile.left);
+  }
+}
+
+// Weighted fits of single pixels of a tile.
+class WeightedTile {
+ public:
+  WeightedTile(const Band& raw, const Tile& tile, int margin)
+      : raw_(raw),
+        left_(tile.left - margin),
+        top_(tile.top - margin),
+        weight_({tile.right - tile.left + 2 * margin, tile.bottom - tile.top + 2 * margin}) {
+    for (int i = 0; i < weight_.height(); ++i)
+      run_kernel<WeighUsable>(weight_.width(), raw.coordinate(top_ + i - 1) + left_,
+                              raw.coordinate(top_ + i) + left_, raw.coordinate(top_ + i + 1) + left_,
+                              raw.sigma(top_ + i) + left_, weight_.row(i));
+  }
+
+  [[nodiscard]] WeightedSquare square(int x, int y, int radius) const {
+    return {raw_.coordinate(y) + x, raw_.stride(), weight_.row(y - top_) + x - left_, weight_.width(),
+            radius};
+  }
+
+ private:
+  const Band& raw_;
+  int left_;
+  int top_;
+  FloatImage weight_;
+};
+
+// From the size that would do if the square were whole, up until it does, else down.
+void fit_weighted_square(const WeightedTile& tile, std::span<const Weights> sizes, int x, int y, float enough,
+                         AxisCorrespondence& out) {
+  float& sigma = out.sigma(x, y);
+  const auto likely =
+      std::ranges::find_if(sizes, [&](const Weights& weights) { return weights.gain * sigma <= enough; });
+  const auto first = likely == sizes.end() ? std::prev(likely) : likely;
+  bool taken = false;
+  const auto take = [&](int radius) {
+    const auto fit = fit_weighted(tile.square(x, y, radius));
+    if (!fit || fit->sigma >= sigma) return;
+    out.coordinate(x, y) = fit->value;
+    sigma = fit->sigma;
+    taken = true;
+  };
+  for (auto size = first; size != sizes.end() && !(taken && sigma <= enough); ++size) take(size->radius);
+  for (auto size = first; !taken && size != sizes.begin();) take((--size)->radius);
+}
+
+// The pixels that no whole square was found for, and those that are noisy all the same: where values differ
+// in sigma, weights make more of them.
+void fit_weighted_squares(const Band& raw, const Tile& tile, std::span<const Weights> sizes, float enough,
+                          AxisCorrespondence& out) {
+  const auto too_large = std::ranges::find_if(
+      sizes, [](const Weights& weights) { return weights.radius > WeightedSquare::max_radius; });
+  const std::span<const Weights> fitting(sizes.begin(), too_large);
+  if (fitting.empty()) return;
+  std::optional<WeightedTile> weighted;  // made where it is needed
+  for (int y = tile.top; y < tile.bottom; ++y) {
+    const float* coordinate = raw.coordinate(y);
+    const float* sigma = raw.sigma(y);
+    const float* fitted = out.sigma.row(y);
+    for (int x = tile.left; x < tile.right; ++x) {
+      const bool alone = !(fitted[x] < sigma[x]);
+      if (coordinate[x] != coordinate[x] || !(alone || fitted[x] > noisy * enough)) continue;
+      if (!weighted) weighted.emplace(raw, tile, fitting.back().radius);
+      if (*weighted->square(x, y, 0).weight > 0) fit_weighted_square(*weighted, fitting, x, y, enough, out);
     }
   }
-  if (slopes.empty()) return 0;
-  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
-  std::nth_element(slopes.begin(), middle, slopes.end());
-  return 1 / std::max(*middle, 1e-3F);
 }
 
-bool any_above(const AxisCorrespondence& raw, int first, int last, float sigma) {
-  for (int y = first; y < last; ++y) {
-    const float* coordinate = raw.coordinate.row(y);
-    const float* deviation = raw.sigma.row(y);
-    for (int x = 0; x < raw.coordinate.width(); ++x)
-      if (coordinate[x] == coordinate[x] && deviation[x] > sigma) return true;
+void fit_tile(const Band& raw, const Tile& tile, std::span<const Weights> sizes, float enough,
+              AxisCorrespondence& out) {
+  for (int y = tile.top; y < tile.bottom; ++y) {
+    std::copy(raw.coordinate(y) + tile.left, raw.coordinate(y) + tile.right,
+              out.coordinate.row(y) + tile.left);
+    std::copy(raw.sigma(y) + tile.left, raw.sigma(y) + tile.right, out.sigma.row(y) + tile.left);
   }
-  return false;
+  const float largest = largest_sigma(raw, tile);
+  float gain_before = 1;
+  for (const Weights& weights : sizes) {
+    const float limit = &weights == &sizes.front() ? 0 : enough;
+    if (gain_before * largest <= limit) break;
+    fit_whole_squares(raw, tile, weights, gain_before, limit, out);
+    gain_before = weights.gain;
+  }
+  fit_weighted_squares(raw, tile, sizes, enough, out);
 }
 
-// Fits rows [first, last) of `raw` with one radius into `out`, whose values stay where the square is not
-// whole or not needed: where gain_before times the raw sigma is `enough`.
-void fit_rows(const AxisCorrespondence& raw, const Weights& weights, float gain_before, float enough,
-              int first, int last, AxisCorrespondence& out) {
-  const int width = raw.coordinate.width();
-  const int height = raw.coordinate.height();
-  const int r = weights.radius;
-  const auto columns = static_cast<std::size_t>(width);
-  std::vector<float> kept(columns, none);
-  std::vector<float> across(columns * static_cast<std::size_t>(last - first + 2 * r), none);
-  const auto across_row = [&](int y) {
-    return across.data() + columns * static_cast<std::size_t>(y - first + r);
-  };
-  for (int y = std::max(1, first - r); y < std::min(height - 1, last + r); ++y) {
-    run_kernel<KeepSmooth>(width, raw.coordinate.row(y - 1), raw.coordinate.row(y), raw.coordinate.row(y + 1),
-                           raw.sigma.row(y), kept.data());
-    run_kernel<FitAcross>(width, r, static_cast<const float*>(weights.at.data()),
-                          static_cast<const float*>(kept.data()), across_row(y));
-  }
-  std::vector<float> fitted(columns);
-  for (int y = first; y < last; ++y) {
-    std::fill(fitted.begin(), fitted.end(), 0.0F);
-    for (int i = -r; i <= r; ++i)
-      run_kernel<AddWeighted>(width, weights.at[static_cast<std::size_t>(i + r)],
-                              static_cast<const float*>(across_row(y + i)), fitted.data());
-    run_kernel<TakeFitted>(width, weights.gain, gain_before, enough, static_cast<const float*>(fitted.data()),
-                           raw.sigma.row(y), out.coordinate.row(y), out.sigma.row(y));
-  }
-}
-
-// The radii tried, ascending; those above the wanted one only where noise demands.
+// The radii tried, ascending; those after the first only where noise demands.
 std::vector<Weights> make_sizes(const LocalFitOptions& options, float px_per_unit) {
   const auto radius = [&](float half_width) {
     return std::clamp(static_cast<int>(std::lround(half_width * px_per_unit)), 0, max_radius);
   };
-  const int wanted = radius(options.half_width_px);
   const int largest = radius(options.max_half_width_px);
   std::vector<Weights> sizes;
-  for (int r = 2; r <= largest; r += r < wanted || r < 4 ? 1 : 2) sizes.emplace_back(r);
+  for (int r = std::max(2, radius(options.half_width_px)); r <= largest; r += r < 4 ? 1 : 2)
+    sizes.emplace_back(r);
   return sizes;
 }
 
@@ -165,26 +306,30 @@ Expected<void> LocalFitOptions::check() const {
   return {};
 }
 
-AxisCorrespondence fit_locally(AxisCorrespondence raw, const LocalFitOptions& options) {
-  const Size camera = raw.coordinate.size();
-  if (options.half_width_px == 0) return raw;
-  const float px_per_unit = pixels_per_unit(raw.coordinate);
-  const std::vector<Weights> sizes = make_sizes(options, px_per_unit);
-  if (sizes.empty() || std::min(camera.width, camera.height) <= 2 * sizes.back().radius) return raw;
-  const float wanted_radius = options.half_width_px * px_per_unit;
-
-  AxisCorrespondence fitted{raw.coordinate.clone(), raw.sigma.clone()};
-  parallel_for(0, camera.height, 64, [&](int first, int last) {
-    float gain_before = 1;
-    for (const Weights& weights : sizes) {
-      const bool wanted = static_cast<float>(weights.radius) <= std::max(2.0F, wanted_radius + 0.5F);
-      const float enough = wanted ? 0 : options.enough_sigma_px;
-      if (!any_above(raw, first, last, enough / gain_before)) break;
-      fit_rows(raw, weights, gain_before, enough, first, last, fitted);
-      gain_before = weights.gain;
+void fit_locally(const CoordinateRows& raw, float px_per_unit, const LocalFitOptions& options,
+                 AxisCorrespondence& fitted) {
+  const Size camera = fitted.coordinate.size();
+  const std::vector<Weights> sizes =
+      options.half_width_px > 0 ? make_sizes(options, px_per_unit) : std::vector<Weights>();
+  if (sizes.empty()) {
+    parallel_for(0, camera.height, band_rows, [&](int first, int last) {
+      raw({first, last - first}, {fitted.coordinate.row(first), fitted.sigma.row(first), camera.width});
+    });
+    return;
+  }
+  // A thread takes band after band, in memory it allocates once.
+  std::atomic<int> next = 0;
+  parallel_for(0, thread_count(), 1, [&](int, int) {
+    std::optional<Band> band;
+    for (int first = 0; (first = next.fetch_add(band_rows)) < camera.height;) {
+      const int last = std::min(first + band_rows, camera.height);
+      if (!band) band.emplace(camera, sizes.back().radius + 1);
+      band->load(raw, first, last);
+      for (int left = 0; left < camera.width; left += tile_columns)
+        fit_tile(*band, {left, std::min(left + tile_columns, camera.width), first, last}, sizes,
+                 options.enough_sigma_px, fitted);
     }
   });
-  return fitted;
 }
 
 }  // namespace bodyscan

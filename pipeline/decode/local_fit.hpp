@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
+#include "pipeline/decode/coordinate_rows.hpp"
 #include "pipeline/decode/correspondence.hpp"
 
 namespace bodyscan {
@@ -13,11 +14,13 @@ struct LocalFitOptions {
   [[nodiscard]] Expected<void> check() const;
 };
 
-// Replaces each coordinate by the value at its pixel of a quadratic fitted to the square around it (Savitzky
-// and Golay 1964, in both image directions): noise falls, planes and curvature stay. The square's size is
-// measured in camera pixels on the capture itself and grows only where the pixel's sigma asks for it, so good
-// light keeps its relief. A square that holds an undecided pixel or a jump is not used: the largest without
-// one is, at last the pixel alone. sigma falls with the noise.
-AxisCorrespondence fit_locally(AxisCorrespondence raw, const LocalFitOptions& options);
+// Gives each pixel the value there of a quadratic fitted to the square around it (Savitzky and Golay 1964, in
+// both image directions): noise falls, planes and curvature stay. The square's size is given in projector
+// pixels and grows only where the pixel's sigma asks for it, so good light keeps its relief. A square that
+// holds undecided pixels, the picture's border or a jump is fitted to what it holds of the pixel's own
+// surface; where that does not show one smooth surface, the pixel stands alone. sigma falls with the noise.
+// `px_per_unit`: camera pixels a projector pixel. `fitted` has the camera's size; all of it is written.
+void fit_locally(const CoordinateRows& raw, float px_per_unit, const LocalFitOptions& options,
+                 AxisCorrespondence& fitted);
 
 }  // namespace bodyscan

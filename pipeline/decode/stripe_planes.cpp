@@ -1,6 +1,7 @@
 #include "pipeline/decode/stripe_planes.hpp"
 
 #include "pipeline/base/instruction_set.hpp"
+#include "pipeline/base/parallel.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,6 +9,8 @@
 
 namespace bodyscan {
 namespace {
+
+constexpr int rows_a_task = 64;
 
 struct AddFineBit {
   BODYSCAN_KERNEL void run(int width, int bit, const std::int16_t* difference, std::uint16_t* gray,
@@ -32,6 +35,11 @@ struct AddCoarseBit {
   }
 };
 
+// Sampled pixels before the given row or column.
+std::size_t samples_of(int pixels) {
+  return static_cast<std::size_t>((pixels + StripePlanes::plateau_step - 1) / StripePlanes::plateau_step);
+}
+
 template <class Pixel>
 void subtract(int width, const Pixel* pattern, const Pixel* inverse, const std::uint16_t* linear,
               std::int16_t* difference) {
@@ -53,13 +61,6 @@ StripePlanes::StripePlanes(Size camera, int count)
   for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
 }
 
-std::size_t StripePlanes::samples_per_plane() const {
-  const auto samples = [](int side) {
-    return static_cast<std::size_t>((side + plateau_step - 1) / plateau_step);
-  };
-  return samples(gray.width()) * samples(gray.height());
-}
-
 void StripePlanes::rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
   constexpr std::uint16_t unset = std::numeric_limits<std::uint16_t>::max();
   for (std::size_t i = 0; i < coarse.size().area(); ++i) {
@@ -75,46 +76,56 @@ void StripePlanes::rescale(const Image<std::uint16_t>& before, const Image<std::
   for (auto& samples : plateau) samples.clear();
 }
 
-void StripePlanes::add_row(int bit, int y, const std::int16_t* difference) {
-  const int width = gray.width();
-  if (bit < fine_bits)
-    run_kernel<AddFineBit>(width, bit, difference, gray.row(y), fine[static_cast<std::size_t>(bit)].row(y));
-  else
-    run_kernel<AddCoarseBit>(width, bit, difference, gray.row(y), coarse.row(y));
+// The samples of the first of the coarsest bits that are still missing, made room for.
+std::vector<std::uint16_t>* StripePlanes::plateau_to_fill() {
+  const auto missing = std::ranges::find_if(plateau, [](const auto& samples) { return samples.empty(); });
+  if (missing == plateau.end()) return nullptr;
+  missing->resize(samples_of(gray.width()) * samples_of(gray.height()));
+  return &*missing;
+}
 
-  if (bit >= fine_bits && y % plateau_step == 0) {
-    const std::size_t wanted = samples_per_plane();
-    const auto filling =
-        std::ranges::find_if(plateau, [&](const auto& samples) { return samples.size() < wanted; });
-    if (filling == plateau.end()) return;
-    for (int x = 0; x < width; x += plateau_step)
-      filling->push_back(static_cast<std::uint16_t>(std::abs(static_cast<int>(difference[x]))));
-  }
+// subtract(y, difference) fills one row of pattern minus inverse.
+template <class Subtract>
+void StripePlanes::add_rows(int bit, const Subtract& subtract) {
+  const int width = gray.width();
+  std::vector<std::uint16_t>* samples = bit >= fine_bits ? plateau_to_fill() : nullptr;
+  parallel_for(0, gray.height(), rows_a_task, [&](int first, int last) {
+    std::vector<std::int16_t> buffer(static_cast<std::size_t>(width));
+    for (int y = first; y < last; ++y) {
+      subtract(y, buffer.data());
+      const std::int16_t* difference = buffer.data();
+      if (bit < fine_bits)
+        run_kernel<AddFineBit>(width, bit, difference, gray.row(y),
+                               fine[static_cast<std::size_t>(bit)].row(y));
+      else
+        run_kernel<AddCoarseBit>(width, bit, difference, gray.row(y), coarse.row(y));
+      if (samples == nullptr || y % plateau_step != 0) continue;
+      std::uint16_t* sample = samples->data() + samples_of(y) * samples_of(width);
+      for (int x = 0; x < width; x += plateau_step)
+        *sample++ = static_cast<std::uint16_t>(std::abs(static_cast<int>(difference[x])));
+    }
+  });
 }
 
 void StripePlanes::add(int bit, const Luma& pattern, const Luma& inverse,
                        std::span<const std::uint16_t> linear) {
-  std::vector<std::int16_t> difference(static_cast<std::size_t>(gray.width()));
   std::visit(
       [&](const auto& lit) {
         const auto& dark = std::get<std::decay_t<decltype(lit)>>(inverse);
-        for (int y = 0; y < gray.height(); ++y) {
-          subtract(gray.width(), lit.row(y), dark.row(y), linear.data(), difference.data());
-          add_row(bit, y, difference.data());
-        }
+        add_rows(bit, [&](int y, std::int16_t* difference) {
+          subtract(gray.width(), lit.row(y), dark.row(y), linear.data(), difference);
+        });
       },
       pattern);
 }
 
 void StripePlanes::add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
                                std::span<const std::uint16_t> linear) {
-  std::vector<std::int16_t> difference(static_cast<std::size_t>(gray.width()));
   std::visit(
       [&](const auto& lit) {
-        for (int y = 0; y < gray.height(); ++y) {
-          subtract_middle(gray.width(), lit.row(y), middle.row(y), linear.data(), difference.data());
-          add_row(bit, y, difference.data());
-        }
+        add_rows(bit, [&](int y, std::int16_t* difference) {
+          subtract_middle(gray.width(), lit.row(y), middle.row(y), linear.data(), difference);
+        });
       },
       pattern);
 }

@@ -36,8 +36,9 @@ struct StripePlanes {
   void rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now);
 
  private:
-  [[nodiscard]] std::size_t samples_per_plane() const;
-  void add_row(int bit, int y, const std::int16_t* difference);
+  template <class Subtract>
+  void add_rows(int bit, const Subtract& subtract);
+  std::vector<std::uint16_t>* plateau_to_fill();
 };
 
 }  // namespace bodyscan

@@ -29,9 +29,17 @@ StripePlanes planes_of(const Amplitudes& left, const Amplitudes& right, int bit_
   return planes;
 }
 
+StripeResolution resolve(const StripePlanes& planes, const Image<std::uint16_t>& light, int max_dropped,
+                         const NoiseModel& noise) {
+  StripeEnergy energy(light, noise);
+  for (int bit = StripePlanes::fine_bits; bit-- > 0;)
+    energy.add(bit, planes.fine[static_cast<std::size_t>(bit)], light);
+  return energy.resolve(planes.bit_count, max_dropped);
+}
+
 StripeResolution resolve(const StripePlanes& planes, int max_dropped = 2,
                          const NoiseModel& noise = no_noise) {
-  return find_stripe_resolution(planes, Image<std::uint16_t>(camera, contrast), noise, max_dropped);
+  return resolve(planes, Image<std::uint16_t>(camera, contrast), max_dropped, noise);
 }
 
 constexpr int at_left = 40;
@@ -86,7 +94,7 @@ TEST(StripeResolution, UnlitPixelsHaveNoSay) {
       planes.fine[0](x, y) = contrast;
     }
   }
-  EXPECT_EQ(find_stripe_resolution(planes, light, no_noise, 2).at(at_left, middle), 1);
+  EXPECT_EQ(resolve(planes, light, 2, no_noise).at(at_left, middle), 1);
 }
 
 }  // namespace

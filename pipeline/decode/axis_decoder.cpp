@@ -1,0 +1,75 @@
+#include "pipeline/decode/axis_decoder.hpp"
+
+#include "pipeline/decode/camera_blur.hpp"
+#include "pipeline/decode/local_fit.hpp"
+#include "pipeline/decode/outshone.hpp"
+#include "pipeline/decode/stripe_locator.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace bodyscan {
+
+AxisDecoder::AxisDecoder(Size camera, int count)
+    : count_(count), planes_(std::in_place, camera, gray_bits(count)), sampled_(camera) {
+  // Written to, so that the system hands the memory out now and not after the last frame.
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  result_ = {FloatImage(camera, none), FloatImage(camera, none)};
+}
+
+void AxisDecoder::add(int bit, const Luma& pattern, const Luma& inverse,
+                      std::span<const std::uint16_t> linear, const Illumination& light) {
+  planes_->add(bit, pattern, inverse, linear);
+  taken(bit, light);
+}
+
+void AxisDecoder::add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
+                              std::span<const std::uint16_t> linear, const Illumination& light) {
+  planes_->add_against(bit, pattern, middle, linear);
+  taken(bit, light);
+}
+
+void AxisDecoder::rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
+  planes_->rescale(before, now);
+  energy_.reset();
+}
+
+void AxisDecoder::taken(int bit, const Illumination& light) {
+  if (bit == 1) measure_coarser_bits(light);
+  complete_ = bit == 0;
+}
+
+void AxisDecoder::measure_coarser_bits(const Illumination& light) {
+  noise_ = measure_noise(*planes_, light.contrast);
+  energy_.emplace(light.contrast, noise_);
+  for (int bit = 1; bit < StripePlanes::fine_bits; ++bit)
+    energy_->add(bit, planes_->fine[static_cast<std::size_t>(bit)], light.contrast);
+}
+
+AxisCorrespondence AxisDecoder::finish(const Illumination& light, const DecodeOptions& options) {
+  const Image<std::uint16_t>& contrast = light.contrast;
+  if (!energy_) measure_coarser_bits(light);
+  energy_->add(0, planes_->fine.front(), contrast);
+  const StripeLocator locator(*planes_, contrast, noise_,
+                              energy_->resolve(planes_->bit_count, options.max_dropped_bits), count_,
+                              options);
+  const CoordinateRows as_seen = [&](const RowRange& rows, const RowArrays& arrays) {
+    locator.locate(rows, arrays);
+    drop_outshone(contrast, options.brightness_edges, rows, arrays);
+  };
+  sampled_->measure(as_seen);
+  const GradientMap gradients(*sampled_, contrast);
+  const float blur = measure_camera_blur(*sampled_, gradients, contrast, noise_);
+  const CoordinateRows sharpened = [&](const RowRange& rows, const RowArrays& arrays) {
+    as_seen(rows, arrays);
+    correct_camera_blur(blur, gradients, contrast, rows, arrays);
+  };
+  AxisCorrespondence result = std::move(result_);
+  fit_locally(sharpened, gradients.px_per_unit(), options.fit, result);
+  planes_.reset();
+  energy_.reset();
+  sampled_.reset();
+  return result;
+}
+
+}  // namespace bodyscan
