@@ -19,7 +19,8 @@ namespace {
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr int max_radius = 12;
 constexpr int band_rows = 128;  // rows a task measures and fits
-constexpr int tile_columns = 256;
+constexpr int tile_columns = 128;
+constexpr int tile_rows = 64;
 constexpr float min_sigma = 0.01F;  // projector px: no value weighs more than one of this sigma
 constexpr float noisy = 2;          // times enough_sigma_px: whole squares do no longer do
 
@@ -88,33 +89,46 @@ struct TakeLarger {
 };
 
 struct FitAcross {
-  BODYSCAN_KERNEL void run(int width, int radius, const float* weights, const float* row, float* fitted) {
+  BODYSCAN_KERNEL void run(int width, int radius, const float* weights, const float* row, const float* sigma,
+                           float* fitted, float* variance) {
     BODYSCAN_VECTORIZE
-    for (int x = 0; x < width; ++x) fitted[x] = 0;
+    for (int x = 0; x < width; ++x) {
+      fitted[x] = 0;
+      variance[x] = 0;
+    }
     for (int i = -radius; i <= radius; ++i) {
       const float weight = weights[i + radius];
       BODYSCAN_VECTORIZE
-      for (int x = 0; x < width; ++x) fitted[x] += weight * row[x + i];
+      for (int x = 0; x < width; ++x) {
+        const float weighted_sigma = weight * sigma[x + i];
+        fitted[x] += weight * row[x + i];
+        variance[x] += weighted_sigma * weighted_sigma;
+      }
     }
   }
 };
 
 struct AddWeighted {
-  BODYSCAN_KERNEL void run(int width, float weight, const float* row, float* sum) {
+  BODYSCAN_KERNEL void run(int width, float weight, const float* row, const float* row_variance, float* sum,
+                           float* variance) {
     BODYSCAN_VECTORIZE
-    for (int x = 0; x < width; ++x) sum[x] += weight * row[x];
+    for (int x = 0; x < width; ++x) {
+      sum[x] += weight * row[x];
+      variance[x] += weight * weight * row_variance[x];
+    }
   }
 };
 
-// Takes a larger square's value where the smaller one's sigma, `gain_before` times the raw one, is too large.
+// Takes a larger square's value where the sigma so far is too large.
 struct TakeFitted {
-  BODYSCAN_KERNEL void run(int width, float gain, float gain_before, float enough, const float* fitted,
-                           const float* raw_sigma, float* value, float* sigma) {
+  BODYSCAN_KERNEL void run(int width, float enough, const float* fitted, const float* variance, float* value,
+                           float* sigma) {
     BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
-      const bool take = (fitted[x] == fitted[x]) & (gain_before * raw_sigma[x] > enough);
+      const float smaller = std::sqrt(variance[x]);
+      const bool take = (fitted[x] == fitted[x]) & (sigma[x] > enough) & (smaller < sigma[x]);
       value[x] = take ? fitted[x] : value[x];
-      sigma[x] = take ? gain * raw_sigma[x] : sigma[x];
+      sigma[x] = take ? smaller : sigma[x];
     }
   }
 };
@@ -168,32 +182,42 @@ struct Tile {
   int bottom;
 };
 
-float largest_sigma(const Band& raw, const Tile& tile) {
+// Of the tile's decided pixels.
+float largest_sigma(const AxisCorrespondence& axis, const Tile& tile) {
   std::vector<float> largest(static_cast<std::size_t>(tile.right - tile.left), 0);
   for (int y = tile.top; y < tile.bottom; ++y)
-    run_kernel<TakeLarger>(tile.right - tile.left, raw.coordinate(y) + tile.left, raw.sigma(y) + tile.left,
-                           largest.data());
+    run_kernel<TakeLarger>(tile.right - tile.left, axis.coordinate.row(y) + tile.left,
+                           axis.sigma.row(y) + tile.left, largest.data());
   return *std::ranges::max_element(largest);
 }
 
-// Fits a tile with one radius into `out`, whose values stay where the square is not whole or not needed:
-// where gain_before times the raw sigma is `enough`.
-void fit_whole_squares(const Band& raw, const Tile& tile, const Weights& weights, float gain_before,
-                       float enough, AxisCorrespondence& out) {
+// Fits a tile with one radius into `out`, whose values stay where the square is not whole or sigma is
+// `enough`.
+void fit_whole_squares(const Band& raw, const Tile& tile, const Weights& weights, float enough,
+                       AxisCorrespondence& out) {
   const int r = weights.radius;
   const int width = tile.right - tile.left;
   FloatImage across({width, tile.bottom - tile.top + 2 * r});
-  for (int i = 0; i < across.height(); ++i)
-    run_kernel<FitAcross>(width, r, static_cast<const float*>(weights.at.data()),
-                          raw.smooth(tile.top - r + i) + tile.left, across.row(i));
+  FloatImage across_variance(across.size());
+  for (int i = 0; i < across.height(); ++i) {
+    const int y = tile.top - r + i;
+    run_kernel<FitAcross>(width, r, static_cast<const float*>(weights.at.data()), raw.smooth(y) + tile.left,
+                          raw.sigma(y) + tile.left, across.row(i), across_variance.row(i));
+  }
   std::vector<float> fitted(static_cast<std::size_t>(width));
+  std::vector<float> variance(fitted.size());
   for (int y = tile.top; y < tile.bottom; ++y) {
-    std::fill(fitted.begin(), fitted.end(), 0.0F);
-    for (int i = 0; i <= 2 * r; ++i)
+    std::ranges::fill(fitted, 0.0F);
+    std::ranges::fill(variance, 0.0F);
+    for (int i = 0; i <= 2 * r; ++i) {
+      const int row = y - tile.top + i;
       run_kernel<AddWeighted>(width, weights.at[static_cast<std::size_t>(i)],
-                              static_cast<const float*>(across.row(y - tile.top + i)), fitted.data());
-    run_kernel<TakeFitted>(width, weights.gain, gain_before, enough, static_cast<const float*>(fitted.data()),
-                           raw.sigma(y) + tile.left, out.coordinate.row(y) + tile.left,
+                              static_cast<const float*>(across.row(row)),
+                              static_cast<const float*>(across_variance.row(row)), fitted.data(),
+                              variance.data());
+    }
+    run_kernel<TakeFitted>(width, enough, static_cast<const float*>(fitted.data()),
+                           static_cast<const float*>(variance.data()), out.coordinate.row(y) + tile.left,
                            out.sigma.row(y) + tile.left);
   }
 }
@@ -272,13 +296,10 @@ void fit_tile(const Band& raw, const Tile& tile, std::span<const Weights> sizes,
               out.coordinate.row(y) + tile.left);
     std::copy(raw.sigma(y) + tile.left, raw.sigma(y) + tile.right, out.sigma.row(y) + tile.left);
   }
-  const float largest = largest_sigma(raw, tile);
-  float gain_before = 1;
   for (const Weights& weights : sizes) {
     const float limit = &weights == &sizes.front() ? 0 : enough;
-    if (gain_before * largest <= limit) break;
-    fit_whole_squares(raw, tile, weights, gain_before, limit, out);
-    gain_before = weights.gain;
+    if (largest_sigma(out, tile) <= limit) break;
+    fit_whole_squares(raw, tile, weights, limit, out);
   }
   fit_weighted_squares(raw, tile, sizes, enough, out);
 }
@@ -325,9 +346,10 @@ void fit_locally(const CoordinateRows& raw, float px_per_unit, const LocalFitOpt
       const int last = std::min(first + band_rows, camera.height);
       if (!band) band.emplace(camera, sizes.back().radius + 1);
       band->load(raw, first, last);
-      for (int left = 0; left < camera.width; left += tile_columns)
-        fit_tile(*band, {left, std::min(left + tile_columns, camera.width), first, last}, sizes,
-                 options.enough_sigma_px, fitted);
+      for (int top = first; top < last; top += tile_rows)
+        for (int left = 0; left < camera.width; left += tile_columns)
+          fit_tile(*band, {left, std::min(left + tile_columns, camera.width), top, std::min(top + tile_rows, last)}, sizes,
+                   options.enough_sigma_px, fitted);
     }
   });
 }
