@@ -59,7 +59,7 @@ AxisCorrespondence AxisDecoder::finish(const Illumination& light, const DecodeOp
   };
   sampled_->measure(as_seen);
   const GradientMap gradients(*sampled_, contrast);
-  const float blur = measure_camera_blur(*sampled_, gradients, contrast, noise_);
+  const CameraBlur blur = measure_camera_blur(*sampled_, gradients, contrast, noise_);
   const CoordinateRows sharpened = [&](const RowRange& rows, const RowArrays& arrays) {
     as_seen(rows, arrays);
     correct_camera_blur(blur, gradients, contrast, rows, arrays);

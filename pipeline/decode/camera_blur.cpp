@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace bodyscan {
@@ -22,42 +23,64 @@ constexpr int rows_a_task = 32;
 // pictures of a printed board, 0 to 1 px from its squares' edges).
 constexpr float correction_doubt = 0.2F;
 
-// grad(u) . grad(C) / C of one row, and its variance for contrasts of variance `noise`.
+constexpr float max_unevenness = 0.15F;  // of an edge's bright side, in shares of the edge
+constexpr int tail_px = 3;  // half the tail's reach
+
+// A camera row of contrast and its neighbours.
+struct ContrastRows {
+  const std::uint16_t* far_above;
+  const std::uint16_t* above;
+  const std::uint16_t* here;
+  const std::uint16_t* below;
+  const std::uint16_t* far_below;
+};
+
+// grad(u) . grad(C) / C of one row, for the core and the tail.
 struct EdgePull {
-  BODYSCAN_KERNEL void run(int begin, int end, Gradient gradient, const std::uint16_t* above,
-                           const std::uint16_t* here, const std::uint16_t* below, float* pull) {
+  BODYSCAN_KERNEL void run(int begin, int end, Gradient gradient, ContrastRows rows, float* core,
+                           float* tail) {
     BODYSCAN_VECTORIZE
     for (int x = begin; x < end; ++x) {
-      const float contrast = static_cast<float>(here[x]);
-      const float across = static_cast<float>(here[x + 1]) - static_cast<float>(here[x - 1]);
-      const float down = static_cast<float>(below[x]) - static_cast<float>(above[x]);
-      const float product = gradient.across * across + gradient.down * down;
-      pull[x] = contrast > 0 ? 0.5F * product / (contrast > 1 ? contrast : 1) : 0;
+      const float contrast = static_cast<float>(rows.here[x]);
+      const float share = contrast > 0 ? 0.5F / (contrast > 1 ? contrast : 1) : 0;
+      const float across = static_cast<float>(rows.here[x + 1]) - static_cast<float>(rows.here[x - 1]);
+      const float down = static_cast<float>(rows.below[x]) - static_cast<float>(rows.above[x]);
+      core[x] = share * (gradient.across * across + gradient.down * down);
+      const float far_across =
+          static_cast<float>(rows.here[x + tail_px]) - static_cast<float>(rows.here[x - tail_px]);
+      const float far_down = static_cast<float>(rows.far_below[x]) - static_cast<float>(rows.far_above[x]);
+      tail[x] = share / tail_px * (gradient.across * far_across + gradient.down * far_down);
     }
   }
 };
 
-// The picture's border, which lacks a neighbour, gets 0.
-void edge_pull_row(const GradientMap& gradients, const Image<std::uint16_t>& contrast, int y, float* pull) {
-  const int width = contrast.width();
-  if (y < 1 || y >= contrast.height() - 1 || width < 3) {
-    std::fill_n(pull, width, 0.0F);
-    return;
+// One row's terms, or several rows'.
+struct Pull {
+  explicit Pull(Size size) : core(size, 0), tail(size, 0) {}
+  FloatImage core;
+  FloatImage tail;
+
+  // Row i becomes that of camera row y; the picture's border, which lacks neighbours, stays 0.
+  void measure(int i, int y, const GradientMap& gradients, const Image<std::uint16_t>& contrast) {
+    std::fill_n(core.row(i), core.width(), 0.0F);
+    std::fill_n(tail.row(i), tail.width(), 0.0F);
+    if (y < tail_px || y >= contrast.height() - tail_px) return;
+    const ContrastRows rows{contrast.row(y - tail_px), contrast.row(y - 1), contrast.row(y),
+                            contrast.row(y + 1), contrast.row(y + tail_px)};
+    constexpr int block = GradientMap::block_px;
+    for (int bx = 0; bx < gradients.columns(); ++bx)
+      run_kernel<EdgePull>(std::max(tail_px, bx * block),
+                           std::min((bx + 1) * block, contrast.width() - tail_px), gradients.of_block(bx, y),
+                           rows, core.row(i), tail.row(i));
   }
-  pull[0] = 0;
-  pull[width - 1] = 0;
-  constexpr int block = GradientMap::block_px;
-  for (int bx = 0; bx < gradients.columns(); ++bx)
-    run_kernel<EdgePull>(std::max(1, bx * block), std::min((bx + 1) * block, width - 1),
-                         gradients.of_block(bx, y), contrast.row(y - 1), contrast.row(y), contrast.row(y + 1),
-                         pull);
-}
+};
 
 struct TakeOff {
-  BODYSCAN_KERNEL void run(int width, float blur, const float* pull, float* u, float* sigma) {
+  BODYSCAN_KERNEL void run(int width, CameraBlur blur, const float* core, const float* tail, float* u,
+                           float* sigma) {
     BODYSCAN_VECTORIZE
     for (int x = 0; x < width; ++x) {
-      const float correction = blur * pull[x];
+      const float correction = blur.core * core[x] + blur.tail * tail[x];
       const float doubt = correction_doubt * correction;
       u[x] -= correction;
       sigma[x] = std::sqrt(sigma[x] * sigma[x] + doubt * doubt);
@@ -65,40 +88,52 @@ struct TakeOff {
   }
 };
 
-// Sums of a regression through the origin of b on a.
+// Sums of a regression through the origin of b on core and tail.
 struct Regression {
   double count = 0;
-  double aa = 0;
-  double ab = 0;
+  double cc = 0;
+  double ct = 0;
+  double tt = 0;
+  double cb = 0;
+  double tb = 0;
   double bb = 0;
 
   void add(const Regression& other) {
     count += other.count;
-    aa += other.aa;
-    ab += other.ab;
+    cc += other.cc;
+    ct += other.ct;
+    tt += other.tt;
+    cb += other.cb;
+    tb += other.tb;
     bb += other.bb;
   }
-  [[nodiscard]] double slope() const { return aa > 0 ? ab / aa : 0; }
-  [[nodiscard]] double standard_error() const {
-    return aa > 0 && count > 1 ? std::sqrt(std::max(0.0, bb - slope() * ab) / (count - 1) / aa) : 0;
+
+  // The core alone explains what it can, or both do; the tail only where it is significant and no negative.
+  [[nodiscard]] CameraBlur solve() const {
+    if (count < 2 || cc <= 0) return {};
+    const double alone = cb / cc;
+    const double alone_error = std::sqrt(std::max(0.0, bb - alone * cb) / (count - 1) / cc);
+    if (alone <= 0 || alone < min_significance * alone_error || alone > max_blur) return {};
+    const double determinant = cc * tt - ct * ct;
+    if (count > 2 && determinant > 1e-6 * cc * tt) {
+      const double core = (tt * cb - ct * tb) / determinant;
+      const double tail = (cc * tb - ct * cb) / determinant;
+      const double variance = std::max(0.0, bb - core * cb - tail * tb) / (count - 2);
+      if (core > 0 && tail > min_significance * std::sqrt(variance * cc / determinant))
+        return {static_cast<float>(core), static_cast<float>(tail)};
+    }
+    return {static_cast<float>(alone), 0};
   }
 };
 
 // The same, a column of the picture each.
 struct ColumnSums {
-  explicit ColumnSums(int width)
-      : count(static_cast<std::size_t>(width), 0), aa(count), ab(count), bb(count) {}
-  std::vector<float> count;
-  std::vector<float> aa;
-  std::vector<float> ab;
-  std::vector<float> bb;
+  explicit ColumnSums(int width) : sums({width, 7}, 0) {}
+  FloatImage sums;
 
   [[nodiscard]] Regression total() const {
-    Regression sum;
-    for (std::size_t x = 0; x < count.size(); ++x)
-      sum.add({static_cast<double>(count[x]), static_cast<double>(aa[x]), static_cast<double>(ab[x]),
-               static_cast<double>(bb[x])});
-    return sum;
+    const auto sum = [&](int row) { return std::accumulate(sums.row(row), sums.row(row) + sums.width(), 0.0); };
+    return {sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), sum(6)};
   }
 };
 
@@ -107,84 +142,114 @@ struct Triple {
   const float* before;
   const float* here;
   const float* after;
+
+  // Of image row i, along it or across.
+  static Triple of(const FloatImage& image, int i, bool across) {
+    if (across) return {image.row(i) - stride, image.row(i), image.row(i) + stride};
+    return {image.row(i - 1), image.row(i), image.row(i + 1)};
+  }
+};
+
+// Contrast at every x and, along the same direction, one and two strides to both sides.
+struct ContrastLine {
+  const std::uint16_t* two_before;
+  const std::uint16_t* before;
+  const std::uint16_t* here;
+  const std::uint16_t* after;
+  const std::uint16_t* two_after;
+
+  static ContrastLine of(const Image<std::uint16_t>& contrast, int y, bool across) {
+    const auto at = [&](int strides) {
+      return across ? contrast.row(y) + strides * stride : contrast.row(y + strides * stride);
+    };
+    return {at(-2), at(-1), at(0), at(1), at(2)};
+  }
 };
 
 struct AddSecondDifferences {
-  BODYSCAN_KERNEL void run(int begin, int end, Triple pull, Triple u, const float* sigma,
-                           const std::uint16_t* contrast, float bright, NoiseModel noise, float slope2,
-                           float* count, float* aa, float* ab, float* bb) {
+  BODYSCAN_KERNEL void run(int begin, int end, Triple core, Triple tail, Triple u, const float* sigma,
+                           ContrastLine contrast, float bright, NoiseModel noise, float slope2, float* sums,
+                           std::ptrdiff_t width) {
     BODYSCAN_VECTORIZE
     for (int x = begin; x < end; ++x) {
-      const float light = static_cast<float>(contrast[x]);
-      const float a = pull.before[x] - 2 * pull.here[x] + pull.after[x];
+      const float light = static_cast<float>(contrast.here[x]);
+      // A painted edge has an even bright side; where a surface turns away, light goes on falling.
+      const float before = static_cast<float>(contrast.before[x]);
+      const float after = static_cast<float>(contrast.after[x]);
+      const float beyond = after > before ? static_cast<float>(contrast.two_after[x]) - after
+                                          : static_cast<float>(contrast.two_before[x]) - before;
+      const bool even = std::abs(beyond) < max_unevenness * std::abs(after - before);
+      const float c = core.before[x] - 2 * core.here[x] + core.after[x];
+      const float t = tail.before[x] - 2 * tail.here[x] + tail.after[x];
       const float b = u.before[x] - 2 * u.here[x] + u.after[x];
-      // Each term is half a difference of two contrasts: 1/2 (1 + 4 + 1) of one's variance.
+      // Each term of c is half a difference of two contrasts: 1/2 (1 + 4 + 1) of one's variance.
       const float variance = 3 * slope2 * (noise.constant + noise.slope * light);
-      const bool stands_out = a * a * light * light > min_pull_sigmas * min_pull_sigmas * variance;
-      const bool counts = stands_out & (light >= bright) & (std::abs(b) < max_bend) &
-                          (std::abs(a) < 4 * max_bend);  // NaN does not count
+      const bool stands_out = c * c * light * light > min_pull_sigmas * min_pull_sigmas * variance;
+      const bool counts = stands_out & even & (light >= bright) & (std::abs(b) < max_bend) &
+                          (std::abs(c) < 4 * max_bend);  // NaN does not count
       const float weight = counts ? 1 / (sigma[x] * sigma[x] + min_sigma * min_sigma) : 0;
       const float safe_b = counts ? b : 0;
-      count[x] += counts ? 1 : 0;
-      aa[x] += weight * a * a;
-      ab[x] += weight * a * safe_b;
-      bb[x] += weight * safe_b * safe_b;
+      sums[x] += counts ? 1 : 0;
+      sums[x + width] += weight * c * c;
+      sums[x + 2 * width] += weight * c * t;
+      sums[x + 3 * width] += weight * t * t;
+      sums[x + 4 * width] += weight * c * safe_b;
+      sums[x + 5 * width] += weight * t * safe_b;
+      sums[x + 6 * width] += weight * safe_b * safe_b;
     }
   }
 };
 
-// Along the image direction in which the coordinate changes faster: across it the term is nothing but noise.
+// Row k of the sample, row i of the terms, along the image direction in which the coordinate changes faster:
+// across it the terms are nothing but noise.
 void add_row(const SampledRows& sampled, const GradientMap& gradients, const Image<std::uint16_t>& contrast,
-             const NoiseModel& noise, int k, const Triple& pull, ColumnSums& sums) {
+             const NoiseModel& noise, int k, const Pull& pull, int i, ColumnSums& sums) {
   const FloatImage& u = sampled.values.coordinate;
   const int y = k * SampledRows::step;
   constexpr int block = GradientMap::block_px;
   for (int bx = 0; bx < gradients.columns(); ++bx) {
     const Gradient& gradient = gradients.of_block(bx, y);
     const bool across = std::abs(gradient.across) > std::abs(gradient.down);
-    const Triple term = across ? Triple{pull.here - stride, pull.here, pull.here + stride} : pull;
-    const Triple value = across ? Triple{u.row(k) - stride, u.row(k), u.row(k) + stride}
-                                : Triple{u.row(k - 1), u.row(k), u.row(k + 1)};
     run_kernel<AddSecondDifferences>(
-        std::max(stride, bx * block), std::min((bx + 1) * block, u.width() - stride), term, value,
-        sampled.values.sigma.row(k), contrast.row(y), static_cast<float>(gradients.bright()), noise,
-        gradient.across * gradient.across + gradient.down * gradient.down, sums.count.data(), sums.aa.data(),
-        sums.ab.data(), sums.bb.data());
+        std::max(2 * stride, bx * block), std::min((bx + 1) * block, u.width() - 2 * stride),
+        Triple::of(pull.core, i, across), Triple::of(pull.tail, i, across), Triple::of(u, k, across),
+        sampled.values.sigma.row(k), ContrastLine::of(contrast, y, across),
+        static_cast<float>(gradients.bright()), noise,
+        gradient.across * gradient.across + gradient.down * gradient.down, sums.sums.data(),
+        std::ptrdiff_t{u.width()});
   }
 }
 
 }  // namespace
 
-float measure_camera_blur(const SampledRows& sampled, const GradientMap& gradients,
-                          const Image<std::uint16_t>& contrast, const NoiseModel& noise) {
+CameraBlur measure_camera_blur(const SampledRows& sampled, const GradientMap& gradients,
+                               const Image<std::uint16_t>& contrast, const NoiseModel& noise) {
   const int rows = sampled.values.coordinate.height();
-  if (rows < 3) return 0;
+  if (rows < 5) return {};
   std::vector<Regression> tasks(static_cast<std::size_t>(rows / rows_a_task + 1));
-  parallel_for(1, rows - 1, rows_a_task, [&](int first, int last) {
-    FloatImage pull({contrast.width(), last - first + 2});
-    for (int i = 0; i < pull.height(); ++i)
-      edge_pull_row(gradients, contrast, (first - 1 + i) * SampledRows::step, pull.row(i));
+  parallel_for(2, rows - 2, rows_a_task, [&](int first, int last) {
+    Pull pull({contrast.width(), last - first + 2});
+    for (int i = 0; i < last - first + 2; ++i)
+      pull.measure(i, (first - 1 + i) * SampledRows::step, gradients, contrast);
     ColumnSums sums(contrast.width());
-    for (int k = first; k < last; ++k) {
-      const int i = k - first + 1;
-      add_row(sampled, gradients, contrast, noise, k, {pull.row(i - 1), pull.row(i), pull.row(i + 1)}, sums);
-    }
-    tasks[static_cast<std::size_t>((first - 1) / rows_a_task)] = sums.total();
+    for (int k = first; k < last; ++k)
+      add_row(sampled, gradients, contrast, noise, k, pull, k - first + 1, sums);
+    tasks[static_cast<std::size_t>((first - 2) / rows_a_task)] = sums.total();
   });
-  Regression fit;  // summed in order, so that the result does not depend on the threads
-  for (const Regression& task : tasks) fit.add(task);
-  const bool told = fit.slope() > 0 && fit.slope() >= min_significance * fit.standard_error();
-  return told && fit.slope() <= max_blur ? static_cast<float>(fit.slope()) : 0;
+  Regression all;  // summed in order, so that the result does not depend on the threads
+  for (const Regression& task : tasks) all.add(task);
+  return all.solve();
 }
 
-void correct_camera_blur(float blur, const GradientMap& gradients, const Image<std::uint16_t>& contrast,
-                         const RowRange& rows, const RowArrays& arrays) {
-  if (blur == 0) return;
+void correct_camera_blur(const CameraBlur& blur, const GradientMap& gradients,
+                         const Image<std::uint16_t>& contrast, const RowRange& rows, const RowArrays& arrays) {
+  if (blur.core == 0) return;
   const int width = contrast.width();
-  std::vector<float> pull(static_cast<std::size_t>(width));
+  Pull pull({width, 1});
   for (int i = 0; i < rows.count; ++i) {
-    edge_pull_row(gradients, contrast, rows.camera_row(i), pull.data());
-    run_kernel<TakeOff>(width, blur, static_cast<const float*>(pull.data()), arrays.coordinate_row(i),
+    pull.measure(0, rows.camera_row(i), gradients, contrast);
+    run_kernel<TakeOff>(width, blur, static_cast<const float*>(pull.core.data()),
+                        static_cast<const float*>(pull.tail.data()), arrays.coordinate_row(i),
                         arrays.sigma_row(i));
   }
 }
