@@ -24,7 +24,7 @@ constexpr int rows_a_task = 32;
 constexpr float correction_doubt = 0.2F;
 
 constexpr float max_unevenness = 0.15F;  // of an edge's bright side, in shares of the edge
-constexpr int tail_px = 3;  // half the tail's reach
+constexpr int tail_px = 3;               // half the tail's reach
 
 // A camera row of contrast and its neighbours.
 struct ContrastRows {
@@ -132,7 +132,9 @@ struct ColumnSums {
   FloatImage sums;
 
   [[nodiscard]] Regression total() const {
-    const auto sum = [&](int row) { return std::accumulate(sums.row(row), sums.row(row) + sums.width(), 0.0); };
+    const auto sum = [&](int row) {
+      return std::accumulate(sums.row(row), sums.row(row) + sums.width(), 0.0);
+    };
     return {sum(0), sum(1), sum(2), sum(3), sum(4), sum(5), sum(6)};
   }
 };
@@ -242,7 +244,8 @@ CameraBlur measure_camera_blur(const SampledRows& sampled, const GradientMap& gr
 }
 
 void correct_camera_blur(const CameraBlur& blur, const GradientMap& gradients,
-                         const Image<std::uint16_t>& contrast, const RowRange& rows, const RowArrays& arrays) {
+                         const Image<std::uint16_t>& contrast, const RowRange& rows,
+                         const RowArrays& arrays) {
   if (blur.core == 0) return;
   const int width = contrast.width();
   Pull pull({width, 1});

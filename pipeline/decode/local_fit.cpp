@@ -211,10 +211,9 @@ void fit_whole_squares(const Band& raw, const Tile& tile, const Weights& weights
     std::ranges::fill(variance, 0.0F);
     for (int i = 0; i <= 2 * r; ++i) {
       const int row = y - tile.top + i;
-      run_kernel<AddWeighted>(width, weights.at[static_cast<std::size_t>(i)],
-                              static_cast<const float*>(across.row(row)),
-                              static_cast<const float*>(across_variance.row(row)), fitted.data(),
-                              variance.data());
+      run_kernel<AddWeighted>(
+          width, weights.at[static_cast<std::size_t>(i)], static_cast<const float*>(across.row(row)),
+          static_cast<const float*>(across_variance.row(row)), fitted.data(), variance.data());
     }
     run_kernel<TakeFitted>(width, enough, static_cast<const float*>(fitted.data()),
                            static_cast<const float*>(variance.data()), out.coordinate.row(y) + tile.left,
@@ -348,8 +347,9 @@ void fit_locally(const CoordinateRows& raw, float px_per_unit, const LocalFitOpt
       band->load(raw, first, last);
       for (int top = first; top < last; top += tile_rows)
         for (int left = 0; left < camera.width; left += tile_columns)
-          fit_tile(*band, {left, std::min(left + tile_columns, camera.width), top, std::min(top + tile_rows, last)}, sizes,
-                   options.enough_sigma_px, fitted);
+          fit_tile(*band,
+                   {left, std::min(left + tile_columns, camera.width), top, std::min(top + tile_rows, last)},
+                   sizes, options.enough_sigma_px, fitted);
     }
   });
 }

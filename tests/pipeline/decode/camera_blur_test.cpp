@@ -56,7 +56,7 @@ struct BlurredBoard {
   static int direction(int pixel) { return nearest_edge(pixel) % 2 == 0 ? 1 : -1; }
 };
 
-float measured_blur(const BlurredBoard& board, const NoiseModel& noise) {
+CameraBlur measured_blur(const BlurredBoard& board, const NoiseModel& noise) {
   SampledRows sampled(camera);
   sampled.measure(board.rows());
   return measure_camera_blur(sampled, GradientMap(sampled, board.contrast), board.contrast, noise);
@@ -66,14 +66,18 @@ class Blur : public testing::TestWithParam<bool> {};
 
 // Central differences flatten the steepest gradients, and s^2 makes up for it.
 TEST_P(Blur, IsMeasured) {
-  for (const double s2 : {0.4, 0.7, 1.0})
-    EXPECT_NEAR(measured_blur(BlurredBoard(s2, 0, 0.01, GetParam()), {1, 0}), 1.15 * s2, 0.15 * s2) << s2;
+  for (const double s2 : {0.4, 0.7, 1.0}) {
+    const CameraBlur blur = measured_blur(BlurredBoard(s2, 0, 0.01, GetParam()), {1, 0});
+    EXPECT_NEAR(blur.core, 1.15 * s2, 0.15 * s2) << s2;
+    EXPECT_EQ(blur.tail, 0) << s2;
+  }
 }
 
 // Real pictures showed it: a regressor's own noise pulls the slope towards zero.
 TEST_P(Blur, IsMeasuredInNoiseToo) {
   const BlurredBoard board(0.6, 120, 0.05, GetParam());
-  EXPECT_NEAR(measured_blur(board, {120.0F * 120, 0}), 0.6, 0.12);
+  const CameraBlur blur = measured_blur(board, {120.0F * 120, 0});
+  EXPECT_NEAR(blur.core + blur.tail, 0.6, 0.15);
 }
 
 TEST_P(Blur, WithoutEdgesIsZero) {
@@ -81,7 +85,7 @@ TEST_P(Blur, WithoutEdgesIsZero) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal(white, 120);
   for (auto& value : board.contrast.pixels()) value = static_cast<std::uint16_t>(normal(random));
-  EXPECT_EQ(measured_blur(board, {120.0F * 120, 0}), 0);
+  EXPECT_EQ(measured_blur(board, {120.0F * 120, 0}).core, 0);
 }
 
 TEST_P(Blur, IsTakenOffAndLeavesDoubt) {
@@ -95,12 +99,41 @@ TEST_P(Blur, IsTakenOffAndLeavesDoubt) {
     return std::abs(board.coordinate(x, y) - static_cast<float>(100 + slope * (GetParam() ? x : y)));
   };
   const float before = bend();
-  correct_camera_blur(0.6F, gradients, board.contrast, {0, camera.height},
+  correct_camera_blur({0.6F, 0}, gradients, board.contrast, {0, camera.height},
                       {board.coordinate.data(), board.sigma.data(), camera.width});
   EXPECT_GT(before, 0.1F);
   EXPECT_LT(bend(), 0.35F * before);
   EXPECT_GT(board.sigma(x, y), 0.1F * before);
   EXPECT_LT(board.sigma(30, 30), 1e-4F);
+}
+
+TEST_P(Blur, HasATailWhereTheLensHas) {
+  BlurredBoard board(0.6, 0, 0.005, GetParam());
+  const int dx = GetParam() ? 3 : 0;
+  const int dy = 3 - dx;
+  for (int y = 3; y < camera.height - 3; ++y) {
+    for (int x = 3; x < camera.width - 3; ++x) {
+      const double gradient = (board.contrast(x + dx, y + dy) - board.contrast(x - dx, y - dy)) / 6.0;
+      board.coordinate(x, y) += static_cast<float>(0.6 * slope * gradient / board.contrast(x, y));
+    }
+  }
+  const CameraBlur blur = measured_blur(board, {1, 0});
+  EXPECT_NEAR(blur.tail, 0.45, 0.15);
+  EXPECT_NEAR(blur.core, 0.75, 0.2);
+}
+
+// The light of a surface that turns away falls further and further, and its coordinate bends all the same.
+TEST_P(Blur, IsNotMistakenForCurvature) {
+  BlurredBoard board(0.6, 0, 0.01, GetParam());
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const int pixel = (GetParam() ? x : y) % 60;
+      const double fall = std::sqrt((60.5 - pixel) / 60);
+      board.contrast(x, y) = static_cast<std::uint16_t>(white * fall);
+      board.coordinate(x, y) = static_cast<float>(100 + slope * (GetParam() ? x : y) + 8 * fall);
+    }
+  }
+  EXPECT_EQ(measured_blur(board, {1, 0}).core, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Camera, Blur, testing::Bool(), [](const auto& instance) {
