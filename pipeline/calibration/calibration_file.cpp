@@ -118,6 +118,16 @@ std::string file_text(const Calibration& calibration) {
          file_storage_matrix("translation", 3, 1, {translation.data(), 3});
 }
 
+std::string notes_text(const CalibrationNotes& notes) {
+  std::string text;
+  if (notes.calibrated_at) text += "calibrated_at: \"" + *notes.calibrated_at + "\"\n";
+  for (const auto& [key, value] : {std::pair("camera_rms_px", notes.camera_rms_px),
+                                   std::pair("projector_rms_px", notes.projector_rms_px),
+                                   std::pair("stereo_rms_px", notes.stereo_rms_px)})
+    if (value) text += file_storage_number(key, *value);
+  return text;
+}
+
 }  // namespace
 
 Expected<void> check_calibration(const Calibration& calibration) {
@@ -140,12 +150,13 @@ Expected<Calibration> read_calibration(const std::filesystem::path& path) {
   return parse_calibration(as_text(*file), path.string());
 }
 
-Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path) {
+Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path,
+                                 const CalibrationNotes& notes) {
   if (Expected<void> good = check_calibration(calibration); !good)
     return output_error(path.string() + ": " + good.error().message);
   Expected<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  if (Expected<void> written = file->write(file_text(calibration)); !written) return written;
+  if (Expected<void> written = file->write(file_text(calibration) + notes_text(notes)); !written) return written;
   return file->commit(Durability::power_cut);
 }
 

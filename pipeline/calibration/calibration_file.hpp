@@ -4,6 +4,7 @@
 #include "pipeline/calibration/calibration.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -22,8 +23,17 @@ Expected<Calibration> parse_calibration(std::string_view text, const std::string
 
 Expected<Calibration> read_calibration(const std::filesystem::path& path);
 
+// Optional keys of the file.
+struct CalibrationNotes {
+  std::optional<std::string> calibrated_at;  // ISO 8601, UTC
+  std::optional<double> camera_rms_px;
+  std::optional<double> projector_rms_px;
+  std::optional<double> stereo_rms_px;  // both together
+};
+
 // The file is complete or not there, even after a power cut. A calibration that check_calibration rejects is
 // an error of kind `output`. Numbers read back equal.
-Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path);
+Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path,
+                                 const CalibrationNotes& notes = {});
 
 }  // namespace bodyscan

@@ -216,6 +216,12 @@ std::string file_storage_sequence(std::string_view key, std::span<const int> val
   return std::string(key) + ": " + flow_sequence(values, ", ");
 }
 
+std::string file_storage_number(std::string_view key, double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(key) + ": " + std::string(digits.data(), end) + "\n";
+}
+
 std::string file_storage_matrix(std::string_view key, int rows, int columns, std::span<const double> values) {
   return std::string(key) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
          "\n   cols: " + std::to_string(columns) +

@@ -30,6 +30,7 @@ class FileStorageText {
 
 // The same format's text, for writing; numbers are the shortest that read back equal.
 std::string file_storage_sequence(std::string_view key, std::span<const int> values);
+std::string file_storage_number(std::string_view key, double value);
 std::string file_storage_matrix(std::string_view key, int rows, int columns, std::span<const double> values);
 
 constexpr std::string_view file_storage_header = "%YAML:1.0\n---\n";

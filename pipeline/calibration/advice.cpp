@@ -1,0 +1,216 @@
+#include "pipeline/calibration/advice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace bodyscan {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double few_tilts_degrees = 15;  // largest angle between two boards
+constexpr double one_distance = 0.1;      // largest over smallest, less one
+constexpr double little_coverage = 0.5;   // of the picture's width or height
+constexpr double poor_focal = 0.003;      // relative
+constexpr double worth_while = 0.7;       // of the uncertainty left by one more pose
+constexpr double tilt = 30;               // degrees, of suggested poses
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+Vector3d middle_of(const PrintedBoard& board) {
+  return {board.square_mm * (board.columns - 1) / 2, board.square_mm * (board.rows - 1) / 2, 0};
+}
+
+// Largest angle between the used boards' normals, degrees, and distances, mm.
+struct Spread {
+  double angle = 0;
+  double nearest = std::numeric_limits<double>::max();
+  double farthest = 0;
+};
+
+Spread spread_of(const AdjustmentProblem& problem, const Adjustment& fit) {
+  Spread spread;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!problem.used[i]) continue;
+    const RigidTransform& one = fit.rig.camera_from_board[i];
+    const double distance = (one * middle_of(problem.board)).norm();
+    spread.nearest = std::min(spread.nearest, distance);
+    spread.farthest = std::max(spread.farthest, distance);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!problem.used[k]) continue;
+      const double cosine = one.rotation.col(2).dot(fit.rig.camera_from_board[k].rotation.col(2));
+      spread.angle = std::max(spread.angle, std::acos(std::clamp(cosine, -1.0, 1.0)) / degree);
+    }
+  }
+  return spread;
+}
+
+// Share of the camera's width and height between the outermost corners.
+Vector2d coverage_of(const AdjustmentProblem& problem, Size camera) {
+  Vector2d low = Vector2d::Constant(std::numeric_limits<double>::max());
+  Vector2d high = -low;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!problem.used[i]) continue;
+    for (const SeenCorner& seen : problem.poses[i].in_camera) {
+      low = low.cwiseMin(seen.px);
+      high = high.cwiseMax(seen.px);
+    }
+  }
+  return (high - low).cwiseQuotient(Vector2d(camera.width, camera.height));
+}
+
+Eigen::Index position_of(const ParameterMask& mask, int parameter) {
+  Eigen::Index before = 0;
+  for (int i = 0; i < parameter; ++i) before += mask[static_cast<std::size_t>(i)] ? 1 : 0;
+  return before;
+}
+
+// Relative variances of both focal lengths and the baseline under an information matrix.
+double uncertainty(const AdjustmentProblem& problem, const Adjustment& fit, const MatrixXd& information) {
+  Adjustment with = fit;
+  with.information = information;
+  const MatrixXd covariance = covariance_of(with);
+  const Calibration& calibration = fit.rig.calibration;
+  double sum = 0;
+  for (const int parameter :
+       {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
+    const Eigen::Index at = position_of(problem.free, parameter);
+    const double value = parameter_value(calibration, parameter);
+    sum += covariance(at, at) / (value * value);
+  }
+  const Eigen::Index translation = position_of(problem.free, extrinsic_parameter(3));
+  const Vector3d direction = calibration.projector_from_camera.translation.normalized();
+  sum += direction.dot(covariance.block<3, 3>(translation, translation) * direction) /
+         calibration.projector_from_camera.translation.squaredNorm();
+  return std::sqrt(std::max(sum, 0.0));
+}
+
+struct Suggestion {
+  std::string words;
+  RigidTransform camera_from_board;
+};
+
+std::vector<Suggestion> suggestions(const AdjustmentProblem& problem, const Adjustment& fit,
+                                    const Spread& spread) {
+  struct Named {
+    const char* words;
+    Vector2d value;
+  };
+  const std::array<Named, 5> tilts{Named{"facing the camera", {0, 0}},
+                                   Named{"its upper edge tilted away by 30 degrees", {-tilt, 0}},
+                                   Named{"its lower edge tilted away by 30 degrees", {tilt, 0}},
+                                   Named{"its left edge tilted away by 30 degrees", {0, tilt}},
+                                   Named{"its right edge tilted away by 30 degrees", {0, -tilt}}};
+  const std::array<Named, 5> places{Named{"in the middle", {0, 0}}, Named{"at the left", {-0.2, 0}},
+                                    Named{"at the right", {0.2, 0}}, Named{"at the top", {0, -0.15}},
+                                    Named{"at the bottom", {0, 0.15}}};
+  const Lens& camera = fit.rig.calibration.camera;
+  const double usual = (spread.nearest + spread.farthest) / 2;
+  std::vector<Suggestion> result;
+  for (const Named& leaning : tilts) {
+    for (const Named& place : places) {
+      for (const double distance : {0.85 * usual, usual, 1.15 * usual}) {
+        const Vector2d px(camera.size.width * (0.5 + place.value.x()),
+                          camera.size.height * (0.5 + place.value.y()));
+        RigidTransform pose;
+        pose.rotation = rotation_of(degree * Vector3d(leaning.value.x(), leaning.value.y(), 0));
+        pose.translation = camera.ray(px) * distance - pose.rotation * middle_of(problem.board);
+        result.push_back({std::string("the board ") + place.words + ", " + leaning.words + ", " +
+                              text("%.2f m away", distance / 1000),
+                          pose});
+      }
+    }
+  }
+  return result;
+}
+
+bool in_picture(const Lens& lens, const Vector2d& px) {
+  return px.x() >= 0 && px.y() >= 0 && px.x() < lens.size.width && px.y() < lens.size.height;
+}
+
+// What both devices would see of the board there; nothing where a corner is out of sight.
+std::optional<PoseObservation> view_of(const Calibration& calibration, const PrintedBoard& board,
+                                       const RigidTransform& camera_from_board) {
+  PoseObservation pose;
+  for (int i = 0; i < board.corner_count(); ++i) {
+    const Vector2d corner = board.corner_mm(i);
+    const Vector3d point = camera_from_board * Vector3d(corner.x(), corner.y(), 0);
+    const Vector3d from_projector = calibration.projector_from_camera * point;
+    if (!(point.z() > 0) || !(from_projector.z() > 0)) return std::nullopt;
+    pose.in_camera.push_back({i, calibration.camera.project(point)});
+    pose.in_projector.push_back({i, calibration.projector.project(from_projector)});
+    if (!in_picture(calibration.camera, pose.in_camera.back().px) ||
+        !in_picture(calibration.projector, pose.in_projector.back().px))
+      return std::nullopt;
+  }
+  return pose;
+}
+
+void name_fixed(const AdjustmentProblem& problem, std::vector<std::string>& lines) {
+  std::string names;
+  for (int p = 0; p < 2 * lens_parameters; ++p) {
+    if (problem.free[static_cast<std::size_t>(p)]) continue;
+    names += (names.empty() ? "" : ", ") + parameter_name(p);
+  }
+  if (!names.empty())
+    lines.push_back("not told from their defaults by these poses, and left there: " + names);
+}
+
+}  // namespace
+
+std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustment& fit) {
+  std::vector<std::string> lines;
+  const Spread spread = spread_of(problem, fit);
+  if (spread.angle < few_tilts_degrees)
+    lines.push_back(
+        "the boards are nearly parallel, within " + text("%.1f degrees", spread.angle) +
+        ": focal lengths, principal points and distances cannot be told apart well; tilt the board by 20 to "
+        "40 degrees both ways");
+  if (spread.farthest < (1 + one_distance) * spread.nearest)
+    lines.push_back("all boards are " + text("%.2f", spread.nearest / 1000) + " to " +
+                    text("%.2f m", spread.farthest / 1000) + " away: hold some nearer, some farther");
+  const Vector2d coverage = coverage_of(problem, fit.rig.calibration.camera.size);
+  if (coverage.minCoeff() < little_coverage)
+    lines.push_back("the corners cover " + text("%.0f %% of the picture's width and ", 100 * coverage.x()) +
+                    text("%.0f %% of its height", 100 * coverage.y()) +
+                    ": beyond, the lens distortion is a guess; hold the board towards the borders too");
+  name_fixed(problem, lines);
+  if (!problem.free[static_cast<std::size_t>(camera_parameter(LensParameter::focal))]) return lines;
+
+  const double before = uncertainty(problem, fit, fit.information);
+  double best = before;
+  std::string words;
+  for (const Suggestion& suggestion : suggestions(problem, fit, spread)) {
+    const auto view = view_of(fit.rig.calibration, problem.board, suggestion.camera_from_board);
+    if (!view) continue;
+    const double after = uncertainty(
+        problem, fit,
+        fit.information + information_of_pose(problem, fit.rig.calibration, suggestion.camera_from_board,
+                                              *view, fit.camera_sigma_px, fit.projector_sigma_px));
+    if (after >= best) continue;
+    best = after;
+    words = suggestion.words;
+  }
+  if (!words.empty() && (before > poor_focal || best < worth_while * before))
+    lines.push_back("one more pose would help most with " + words +
+                    ": focal lengths and baseline, known to " + text("%.2g %%", 100 * before) +
+                    " together, would be known to " + text("%.2g %%", 100 * best));
+  return lines;
+}
+
+}  // namespace bodyscan

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "pipeline/calibration/bundle_adjustment.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bodyscan {
+
+// What the poses cannot determine well, in words and figures, and which further pose of the board would help
+// most: of a set of tilts, places and distances, the one after which the focal lengths and the baseline are
+// known best.
+std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustment& fit);
+
+}  // namespace bodyscan

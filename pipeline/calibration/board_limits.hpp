@@ -1,0 +1,10 @@
+#pragma once
+
+namespace bodyscan {
+
+// The boards that there are, printed and projected: inner corners along a side, and the side of a square.
+constexpr int min_board_corners = 3;
+constexpr int max_board_corners = 100;
+constexpr double max_square_mm = 1000;  // below, not equal
+
+}  // namespace bodyscan

@@ -1,0 +1,153 @@
+#include "pipeline/calibration/pose_agreement.hpp"
+
+#include "pipeline/calibration/initial_guess.hpp"
+#include "pipeline/calibration/square_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace bodyscan {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double suspicious = 1.7;  // times the poses' median misfit
+constexpr double disagreeing = 4;   // times the others' median, under a calibration without it
+constexpr double floor_px = 0.03;   // a misfit below is nothing to complain of
+constexpr double other_board_percent = 1.5;
+constexpr int fewest_poses = 3;
+constexpr double outlier_sigmas = 6;
+
+std::string text(double value, int digits) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
+  return buffer;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Without single false corners: lengths far beyond what the median of all would let expect.
+double root_mean_square(const std::vector<Vector2d>& residuals, std::size_t begin, std::size_t end) {
+  std::vector<double> lengths;
+  for (std::size_t k = begin; k < end; ++k) lengths.push_back(residuals[k].norm());
+  const double limit = outlier_sigmas * median(lengths) / std::sqrt(2 * std::log(2.0));
+  double sum = 0;
+  std::size_t count = 0;
+  for (const double length : lengths) {
+    if (length > limit) continue;
+    sum += length * length;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+}
+
+PoseMisfit misfit_at(const AdjustmentProblem& problem, const Calibration& calibration,
+                     const RigidTransform& camera_from_board, std::size_t pose) {
+  std::vector<Vector2d> residuals;
+  const PoseObservation& seen = problem.poses[pose];
+  predict_residuals(calibration, camera_from_board, problem.board, seen, residuals);
+  return {root_mean_square(residuals, 0, camera_count(seen)),
+          root_mean_square(residuals, camera_count(seen), residuals.size()), camera_from_board};
+}
+
+struct Typical {
+  double camera_px;
+  double projector_px;
+};
+
+// Medians over the used poses, `without` left out.
+Typical typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t without) {
+  std::vector<double> camera;
+  std::vector<double> projector;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!problem.used[i] || i == without) continue;
+    const PoseMisfit misfit = misfit_at(problem, fit.rig.calibration, fit.rig.camera_from_board[i], i);
+    camera.push_back(misfit.camera_px);
+    projector.push_back(misfit.projector_px);
+  }
+  return {std::max(median(camera), floor_px), std::max(median(projector), floor_px)};
+}
+
+double ratio(const PoseMisfit& misfit, const Typical& typical) {
+  return std::max(misfit.camera_px / typical.camera_px, misfit.projector_px / typical.projector_px);
+}
+
+// Of the printed corners about the flat board that fits them best, whatever the projector says.
+double camera_misfit_alone(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t pose) {
+  std::vector<PoseObservation> only{problem.poses[pose]};
+  only[0].in_projector.clear();
+  only[0].projected.clear();
+  const AdjustmentProblem alone{problem.board, only, {true}, {}};
+  Adjustment start = fit;
+  start.rig.camera_from_board = {fit.rig.camera_from_board[pose]};
+  return misfit_of_pose(alone, start, 0).camera_px;
+}
+
+std::string reason_of(const AdjustmentProblem& problem, const Adjustment& without, const PoseMisfit& misfit,
+                      const Typical& typical, std::size_t pose) {
+  const SideFigures sides =
+      figures_of(triangulate_board(without.rig.calibration, problem.board, problem.poses[pose]).sides);
+  if (std::abs(sides.error_percent) > other_board_percent && sides.spread_percent < other_board_percent)
+    return "its squares measure " + text(problem.board.square_mm * (1 + sides.error_percent / 100), 2) +
+           " mm, not " + text(problem.board.square_mm, 2) +
+           ": another board, or the board moved between the pictures";
+  const double alone_px = camera_misfit_alone(problem, without, pose);
+  if (alone_px > disagreeing * typical.camera_px)
+    return "its printed corners lie " + text(alone_px, 2) + " px off a flat board (" +
+           text(typical.camera_px, 2) + " px in other poses): bent, blurred, or another board";
+  return "camera and projector disagree by " + text(misfit.projector_px, 2) + " px (" +
+         text(typical.projector_px, 2) + " px in other poses): the board moved between the pictures";
+}
+
+}  // namespace
+
+PoseMisfit misfit_of_pose(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t pose) {
+  AdjustmentProblem alone{problem.board, problem.poses, std::vector<bool>(problem.poses.size(), false), {}};
+  alone.used[pose] = true;
+  RigEstimate start = fit.rig;
+  if (const auto guess = guess_board(problem.board, problem.poses[pose], start.calibration.camera))
+    start.camera_from_board[pose] = *guess;
+  const Adjustment fitted = adjust(alone, start);
+  return misfit_at(problem, fitted.rig.calibration, fitted.rig.camera_from_board[pose], pose);
+}
+
+std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit) {
+  std::vector<std::string> reasons(problem.poses.size());
+  while (std::ranges::count(problem.used, true) > fewest_poses) {
+    const Typical typical = typical_misfit(problem, fit, problem.poses.size());
+    double worst_ratio = 0;
+    std::size_t worst = 0;
+    Adjustment best_without;
+    PoseMisfit worst_misfit;
+    Typical worst_typical{};
+    for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+      if (!problem.used[i]) continue;
+      const PoseMisfit here = misfit_at(problem, fit.rig.calibration, fit.rig.camera_from_board[i], i);
+      if (ratio(here, typical) < suspicious) continue;
+      AdjustmentProblem others = problem;
+      others.used[i] = false;
+      const Adjustment without = adjust(others, fit.rig);
+      const PoseMisfit misfit = misfit_of_pose(problem, without, i);
+      const Typical rest = typical_misfit(problem, without, i);
+      if (ratio(misfit, rest) <= worst_ratio) continue;
+      worst_ratio = ratio(misfit, rest);
+      worst = i;
+      best_without = without;
+      worst_misfit = misfit;
+      worst_typical = rest;
+    }
+    if (worst_ratio < disagreeing) break;
+    reasons[worst] = reason_of(problem, best_without, worst_misfit, worst_typical, worst);
+    problem.used[worst] = false;
+    fit = best_without;
+  }
+  return reasons;
+}
+
+}  // namespace bodyscan
