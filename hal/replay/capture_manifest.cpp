@@ -1,6 +1,6 @@
 #include "hal/replay/capture_manifest.hpp"
 
-#include "hal/replay/json_node.hpp"
+#include "hal/replay/manifest_fields.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -8,37 +8,6 @@
 
 namespace bodyscan {
 namespace {
-
-constexpr int max_projector_side = 1 << 15;
-
-Expected<int> projector_side(const JsonNode& node) {
-  return json_integer(node).and_then([&](std::int64_t side) -> Expected<int> {
-    if (side < 2 || side > max_projector_side)
-      return node.error(std::to_string(side) + " does not lie in 2 to " + std::to_string(max_projector_side));
-    return static_cast<int>(side);
-  });
-}
-
-Expected<Size> projector_size(const JsonNode& node) {
-  if (!node.value->is_object()) return node.error("not an object");
-  const Expected<int> width = required(node, "width", projector_side);
-  if (!width) return tl::unexpected(width.error());
-  const Expected<int> height = required(node, "height", projector_side);
-  if (!height) return tl::unexpected(height.error());
-  return Size{*width, *height};
-}
-
-bool is_plain_name(std::string_view name) {
-  const bool control = std::any_of(name.begin(), name.end(), [](char c) { return c >= 0 && c < ' '; });
-  return !name.empty() && name != "." && name != ".." && !control &&
-         name.find_first_of("/\\") == std::string_view::npos;
-}
-
-Expected<std::string> plain_name(const JsonNode& node) {
-  Expected<std::string> name = json_text(node);
-  if (name && !is_plain_name(*name)) return node.error("not a plain file name inside the folder");
-  return name;
-}
 
 Expected<Axis> axis(const JsonNode& node) {
   return json_text(node).and_then([&](const std::string& name) -> Expected<Axis> {
@@ -168,18 +137,6 @@ Expected<ToneResponse> response_of(const JsonNode& node) {
   return node.error("neither \"srgb\", \"linear\" nor a gamma");
 }
 
-Expected<void> check_format(const JsonNode& root) {
-  if (!root.value->is_object()) return input_error("not a JSON object");
-  const Expected<std::string> format = required(root, "format", json_text);
-  if (!format) return tl::unexpected(format.error());
-  if (*format != "bodyscan-capture")
-    return input_error("format: \"" + *format + "\" is not bodyscan-capture");
-  const Expected<std::int64_t> version = required(root, "version", json_integer);
-  if (!version) return tl::unexpected(version.error());
-  if (*version != 1) return input_error("version: " + std::to_string(*version) + " is not 1");
-  return {};
-}
-
 Expected<void> read_optional_keys(const JsonNode& root, CaptureManifest& manifest) {
   const Expected<void> good = {};
   if (root.has("response")) {
@@ -195,7 +152,8 @@ Expected<void> read_optional_keys(const JsonNode& root, CaptureManifest& manifes
 }
 
 Expected<CaptureManifest> manifest_of(const JsonNode& root) {
-  if (Expected<void> format = check_format(root); !format) return tl::unexpected(format.error());
+  if (Expected<void> format = check_format(root, "bodyscan-capture"); !format)
+    return tl::unexpected(format.error());
   CaptureManifest manifest;
   const Expected<Size> projector = required(root, "projector", projector_size);
   if (!projector) return tl::unexpected(projector.error());
@@ -213,13 +171,7 @@ Expected<CaptureManifest> manifest_of(const JsonNode& root) {
 }  // namespace
 
 Expected<CaptureManifest> parse_manifest(std::string_view text, const std::string& name) {
-  if (text.size() > max_manifest_bytes)
-    return input_error(name + ": over the limit of " + std::to_string(max_manifest_bytes) + " bytes");
-  return parse_json(text)
-      .and_then([](const nlohmann::json& document) {
-        return manifest_of({&document, ""});
-      })
-      .map_error([&](const Error& error) { return error.within(name); });
+  return read_document(text, name, max_manifest_bytes, manifest_of);
 }
 
 }  // namespace bodyscan
