@@ -18,6 +18,8 @@ ExitStatus run_command_line(int argc, const char* const* argv);
 
 // Each command adds itself: its name, options and help to `app`, and, if it is the one named, what it does to
 // `action`.
+void add_board_command(CLI::App& app, Action& action);
+void add_calibrate_command(CLI::App& app, Action& action);
 void add_reconstruct_command(CLI::App& app, Action& action);
 
 }  // namespace bodyscan
