@@ -2,7 +2,9 @@
 
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
+#include "tools/simulator/frame_file.hpp"
 #include "tools/simulator/image_files.hpp"
+#include "tools/simulator/json_values.hpp"
 #include "tools/simulator/sensor.hpp"
 #include "tools/simulator/skin.hpp"
 #include "tools/simulator/subjects.hpp"
@@ -14,22 +16,14 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 namespace bodyscan::simulator {
 namespace {
 
-using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-Json to_json(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 
 std::string frame_name(int index, FrameFormat format) {
   const std::string number = std::to_string(index);
-  return "frame_" + (number.size() < 2 ? "0" + number : number) +
-         (format == FrameFormat::jpeg ? ".jpg" : ".png");
+  return "frame_" + (number.size() < 2 ? "0" + number : number) + extension(format);
 }
 
 Json capture_json(const PatternSequence& sequence, FrameFormat format) {
@@ -61,34 +55,19 @@ Json capture_json(const PatternSequence& sequence, FrameFormat format) {
 }
 
 Json settings_json(const RenderOptions& options) {
-  return {{"subject", options.subject},
-          {"calibration", options.calibration},
-          {"rig_scale", options.rig.scale},
-          {"rig_projector", {options.rig.projector.width, options.rig.projector.height}},
-          {"rig_projector_roll_degrees", options.rig.projector_roll},
-          {"material", options.material},
-          {"detail_mm", options.detail},
-          {"subject_scale", options.subject_scale},
-          {"pose_rotation_degrees", to_json(options.pose_rotation)},
-          {"pose_translation_mm", to_json(options.pose_translation)},
-          {"motion_mm_per_frame", to_json(options.motion)},
-          {"light", options.light},
-          {"contrast", options.contrast},
-          {"ambient", options.ambient},
-          {"reflection", options.reflection},
-          {"defocus_px", options.defocus},
-          {"subsurface", options.subsurface},
-          {"subsurface_blur_px", options.subsurface_blur},
-          {"rays", options.rays},
-          {"full_well_electrons", options.full_well},
-          {"read_noise_electrons", options.read_noise},
-          {"seed", options.seed},
-          {"frame_format", options.format == FrameFormat::jpeg ? "jpeg" : "png"},
-          {"jpeg_quality", options.jpeg_quality},
-          {"rows", options.sequence.rows},
-          {"columns", options.sequence.columns},
-          {"inverses", options.sequence.inverses},
-          {"largest_incidence_degrees", largest_incidence_degrees}};
+  Json settings{{"subject", options.subject},
+                {"material", options.material},
+                {"detail_mm", options.detail},
+                {"subject_scale", options.subject_scale},
+                {"pose_rotation_degrees", to_json(options.pose_rotation)},
+                {"pose_translation_mm", to_json(options.pose_translation)},
+                {"motion_mm_per_frame", to_json(options.motion)},
+                {"rows", options.sequence.rows},
+                {"columns", options.sequence.columns},
+                {"inverses", options.sequence.inverses},
+                {"largest_incidence_degrees", largest_incidence_degrees}};
+  settings.update(rig_and_camera_json(options));
+  return settings;
 }
 
 Json scene_json(const Scene& scene, const RenderOptions& options) {
@@ -130,10 +109,6 @@ Json scene_json(const Scene& scene, const RenderOptions& options) {
           {"bumps", std::move(bumps)},
           {"moles", std::move(moles)},
           {"settings", settings_json(options)}};
-}
-
-Expected<void> write_text(const fs::path& path, const std::string& text) {
-  return write_bytes(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 void append_number(std::string& text, double value, int digits) {
@@ -181,28 +156,6 @@ Expected<void> write_mesh(const fs::path& path, const Scene& scene) {
   return {};
 }
 
-Expected<void> write_frame(const fs::path& path, const ColorImage8& image, const RenderOptions& options) {
-  if (options.format == FrameFormat::png) return write_png(path, image);
-  const Expected<std::vector<std::uint8_t>> jpeg = encode_jpeg(image, options.jpeg_quality);
-  if (!jpeg) return tl::unexpected(jpeg.error().within(path.string()));
-  return write_bytes(path, *jpeg);
-}
-
-Expected<void> write_frames(const Renderer& renderer, const PatternSequence& sequence,
-                            const RenderOptions& options) {
-  std::mutex mutex;
-  std::optional<Error> failure;
-  parallel_for(0, static_cast<int>(sequence.patterns.size()), 1, [&](int index, int) {
-    const ColorImage8 image = renderer.frame(sequence.patterns[static_cast<std::size_t>(index)], index);
-    const Expected<void> written =
-        write_frame(options.output / frame_name(index, options.format), image, options);
-    const std::lock_guard lock(mutex);
-    if (!written && !failure) failure = written.error();
-  });
-  if (failure) return tl::unexpected(*failure);
-  return write_text(options.output / "capture.json", capture_json(sequence, options.format).dump(2) + "\n");
-}
-
 Expected<void> write_truth(const fs::path& folder, const Truth& truth, const RenderOptions& options) {
   const TruthMaps& maps = truth.maps;
   return write_pfm(folder / "depth.pfm", maps.depth)
@@ -211,13 +164,27 @@ Expected<void> write_truth(const fs::path& folder, const Truth& truth, const Ren
       .and_then([&] { return write_pfm(folder / "columns.pfm", maps.columns); })
       .and_then([&] { return write_png(folder / "reachable.png", maps.reachable); })
       .and_then(
-          [&] { return write_text(folder / "scene.json", scene_json(truth.scene, options).dump(2) + "\n"); })
+          [&] { return write_json(folder / "scene.json", scene_json(truth.scene, options)); })
       .and_then([&] {
         return options.write_mesh ? write_mesh(folder / "mesh.obj", truth.scene) : Expected<void>{};
       });
 }
 
 }  // namespace
+
+Expected<void> write_capture(const fs::path& folder, const PatternSequence& sequence, const Photograph& photograph,
+                             const RenderOptions& options) {
+  std::mutex mutex;
+  std::optional<Error> failure;
+  parallel_for(0, static_cast<int>(sequence.patterns.size()), 1, [&](int index, int) {
+    const ColorImage8 image = photograph(sequence.patterns[static_cast<std::size_t>(index)], index);
+    const Expected<void> written = write_frame(folder / frame_name(index, options.format), image, options);
+    const std::lock_guard lock(mutex);
+    if (!written && !failure) failure = written.error();
+  });
+  if (failure) return tl::unexpected(*failure);
+  return write_json(folder / "capture.json", capture_json(sequence, options.format));
+}
 
 Expected<Truth> render_capture(const RenderOptions& options) {
   if (options.output.empty()) return tl::unexpected(Error{ErrorKind::usage, "--output: needs a folder"});
@@ -235,7 +202,9 @@ Expected<Truth> render_capture(const RenderOptions& options) {
   if (!written) return tl::unexpected(written.error());
   Expected<Renderer> renderer = Renderer::make(truth.scene, options);
   if (!renderer) return tl::unexpected(renderer.error());
-  written = write_frames(*renderer, *sequence, options);
+  written = write_capture(
+      options.output, *sequence,
+      [&](const Pattern& pattern, int index) { return renderer->frame(pattern, index); }, options);
   if (!written) return tl::unexpected(written.error());
   truth.maps = renderer->truth();
   written = write_truth(options.output / "truth", truth, options);

@@ -1,6 +1,7 @@
 #include "tools/simulator/renderer.hpp"
 
 #include "pipeline/base/parallel.hpp"
+#include "tools/simulator/projected_chessboard.hpp"
 #include "tools/simulator/projected_light.hpp"
 #include "tools/simulator/sensor.hpp"
 #include "tools/simulator/skin.hpp"
@@ -89,6 +90,13 @@ Expected<Renderer> Renderer::make(const Scene& scene, const RenderOptions& optio
   return renderer;
 }
 
+// Share of the projector's light that reaches this place of its picture.
+double Renderer::evenness(const Illumination& light) const {
+  const Size size = scene_->calibration.projector.size;
+  const double way = (light.column / (size.width - 1) + light.row / (size.height - 1)) / 2;
+  return 1 - options_.uneven_light * std::clamp(way, 0.0, 1.0);
+}
+
 Renderer::SubRay Renderer::trace_ray(const Eigen::Vector2d& pixel, const Eigen::Vector3d& offset) const {
   SubRay ray{};
   const std::optional<SurfaceHit> hit = tracer_.hit(scene_->calibration.camera.ray(pixel), offset);
@@ -98,8 +106,8 @@ Renderer::SubRay Renderer::trace_ray(const Eigen::Vector2d& pixel, const Eigen::
   ray.row = static_cast<float>(light.row);
   ray.column = static_cast<float>(light.column);
   if (light.direct)
-    ray.direct =
-        static_cast<float>(white_ * light.cosine * reference_distance2_ / (light.distance * light.distance));
+    ray.direct = static_cast<float>(white_ * light.cosine * evenness(light) * reference_distance2_ /
+                                    (light.distance * light.distance));
   for (int c = 0; c < 3; ++c)
     ray.albedo[static_cast<std::size_t>(c)] =
         static_cast<std::uint16_t>(std::clamp(hit->albedo[c], 0.0F, 1.0F) * albedo_unit + 0.5F);
@@ -134,48 +142,102 @@ Renderer::Samples Renderer::trace(const Eigen::Vector3d& offset) const {
   return samples;
 }
 
-ColorImage8 Renderer::frame(const Pattern& pattern, int index) const {
-  const Size size = scene_->calibration.camera.size;
-  const double blurred = std::hypot(options_.defocus, options_.subsurface_blur);
+double Renderer::scattered_blur() const {
   const bool scatters = scattered_share_[1] > 0;
-  const ProjectedLight light(pattern, scene_->calibration.projector.size, options_.defocus,
-                             scatters ? blurred : options_.defocus);
-  const Sensor sensor(options_.full_well, options_.read_noise, options_.seed,
-                      static_cast<std::uint64_t>(index));
-  const auto black = static_cast<float>(1 / options_.contrast);
-  const auto indirect = static_cast<float>(white_ * options_.reflection *
-                                               static_cast<double>(black + (1 - black) * light.mean()) +
-                                           options_.ambient / static_cast<double>(matt_albedo));
+  return scatters ? std::hypot(options_.defocus, options_.subsurface_blur) : options_.defocus;
+}
+
+ColorImage8 Renderer::frame(const Pattern& pattern, int index) const {
+  const ProjectedLight light(pattern, scene_->calibration.projector.size, options_.defocus, scattered_blur());
+  if (light.axis() == Axis::row)
+    return picture([&](const SubRay& ray) { return light.at(ray.row); }, light.mean(), index);
+  return picture([&](const SubRay& ray) { return light.at(ray.column); }, light.mean(), index);
+}
+
+ColorImage8 Renderer::frame(const ProjectedBoard& board, int index) const {
+  const ProjectedChessboard light(board, scene_->calibration.projector.size, options_.defocus,
+                                  scattered_blur());
+  return picture([&](const SubRay& ray) { return light.at(ray.column, ray.row); }, light.mean(), index);
+}
+
+template <class Shown>
+ColorImage8 Renderer::picture(const Shown& shown, float mean, int index) const {
   Samples moved;
   if (!options_.motion.isZero()) moved = trace(index * options_.motion);
-  const Samples& samples = options_.motion.isZero() ? still_ : moved;
+  Lit lit = light(options_.motion.isZero() ? still_ : moved, shown, mean);
+  if (options_.lens_blur > 0 && !lit.light.empty()) blur_light(lit.light, options_.lens_blur);
+  return expose(lit, index);
+}
 
+// The bounding box of what the rays met, with room for the lens's blur.
+Renderer::Lit Renderer::lit_part(const Samples& samples) const {
+  const Size size = scene_->calibration.camera.size;
+  int left = size.width;
+  int right = 0;
+  int top = size.height;
+  int bottom = 0;
+  for (int y = 0; y < size.height; ++y) {
+    const auto [first, last] = samples.spans[static_cast<std::size_t>(y)];
+    if (first >= last) continue;
+    left = std::min(left, first);
+    right = std::max(right, last);
+    top = std::min(top, y);
+    bottom = y + 1;
+  }
+  if (left >= right) return {};
+  const int reach = lens_blur_reach(options_.lens_blur);
+  Lit lit{std::max(0, left - reach), std::max(0, top - reach), {}};
+  lit.light = LightImage(
+      {std::min(size.width, right + reach) - lit.left, std::min(size.height, bottom + reach) - lit.top});
+  return lit;
+}
+
+template <class Shown>
+Renderer::Lit Renderer::light(const Samples& samples, const Shown& shown, float mean) const {
+  const auto black = static_cast<float>(1 / options_.contrast);
+  const auto indirect =
+      static_cast<float>(white_ * options_.reflection * static_cast<double>(black + (1 - black) * mean) +
+                         options_.ambient / static_cast<double>(matt_albedo));
   const int rays = options_.rays * options_.rays;
   const float ray_weight = 1 / (static_cast<float>(rays) * albedo_unit);
-  const bool along_rows = light.axis() == Axis::row;
-  ColorImage8 image(size);
-  parallel_for(0, size.height, rows_at_once, [&](int begin, int end) {
+  Lit lit = lit_part(samples);
+  parallel_for(0, lit.light.height(), rows_at_once, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const auto [first, last] = samples.spans[static_cast<std::size_t>(y)];
-      for (int x = 0; x < size.width; ++x) {
+      const auto [first, last] = samples.spans[static_cast<std::size_t>(lit.top + y)];
+      for (int x = 0; x < lit.light.width(); ++x) {
         std::array<float, 3> sum{};
-        if (x >= first && x < last) {
-          const SubRay* ray = samples.rays.row(y) + static_cast<std::ptrdiff_t>(x) * rays;
+        if (lit.left + x >= first && lit.left + x < last) {
+          const SubRay* ray = samples.rays.row(lit.top + y) + static_cast<std::ptrdiff_t>(lit.left + x) * rays;
           for (int k = 0; k < rays; ++k, ++ray) {
             if (ray->hit == 0) continue;
-            const ProjectedLight::Value value =
-                ray->direct > 0 ? light.at(along_rows ? ray->row : ray->column) : ProjectedLight::Value{};
+            const BlurredRow::Value value = ray->direct > 0 ? shown(*ray) : BlurredRow::Value{};
             for (unsigned c = 0; c < 3; ++c) {
-              const float shown = value.focused + scattered_share_[c] * value.scatter_change;
-              sum[c] += ray->albedo[c] * (ray->direct * (black + (1 - black) * shown) + indirect);
+              const float share = value.focused + scattered_share_[c] * value.scatter_change;
+              sum[c] += ray->albedo[c] * (ray->direct * (black + (1 - black) * share) + indirect);
             }
           }
           for (float& channel : sum) channel *= ray_weight;
         }
-        const auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(size.width) +
-                           static_cast<std::uint64_t>(x);
-        image(x, y) = sensor.expose(sum, pixel);
+        lit.light(x, y) = sum;
       }
+    }
+  });
+  return lit;
+}
+
+ColorImage8 Renderer::expose(const Lit& lit, int index) const {
+  const Sensor sensor(options_.full_well, options_.read_noise, options_.seed,
+                      static_cast<std::uint64_t>(index));
+  ColorImage8 image(scene_->calibration.camera.size);
+  parallel_for(0, image.height(), rows_at_once, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const bool any = y >= lit.top && y < lit.top + lit.light.height();
+      const std::array<float, 3>* light = any ? lit.light.row(y - lit.top) : nullptr;
+      const int first = any ? lit.left : image.width();
+      const int last = any ? lit.left + lit.light.width() : image.width();
+      auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(image.width());
+      for (int x = 0; x < image.width(); ++x, ++pixel)
+        image(x, y) = sensor.expose(x >= first && x < last ? light[x - first] : std::array<float, 3>{}, pixel);
     }
   });
   return image;

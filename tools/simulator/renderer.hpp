@@ -3,6 +3,8 @@
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
 #include "pipeline/pattern/sequence.hpp"
+#include "tools/simulator/blurred_row.hpp"
+#include "tools/simulator/lens_blur.hpp"
 #include "tools/simulator/scene.hpp"
 #include "tools/simulator/tracer.hpp"
 
@@ -32,7 +34,7 @@ struct TruthMaps {
 // Renders what the camera sees of each projected picture. Light, per channel:
 //   albedo * (direct * ((1 - s) p_sharp + s p_scattered) + reflection * mean(p) + ambient)
 // with p the projected picture over its black level, s the channel's scattered share, and direct the cosine
-// law over the squared distance.
+// law over the squared distance, times the projector's unevenness. The lens blurs this light before the sensor.
 class Renderer {
  public:
   // `scene` must outlive the renderer. Without motion the rays are cast here, once.
@@ -40,8 +42,9 @@ class Renderer {
 
   // The truth for the first frame.
   [[nodiscard]] TruthMaps truth() const;
-  // Frame `index` of a capture, showing `pattern`. May be called from several threads.
+  // Frame `index` of a capture, showing `pattern` or `board`. May be called from several threads.
   [[nodiscard]] ColorImage8 frame(const Pattern& pattern, int index) const;
+  [[nodiscard]] ColorImage8 frame(const ProjectedBoard& board, int index) const;
 
  private:
   struct SubRay {
@@ -56,10 +59,25 @@ class Renderer {
     std::vector<std::array<int, 2>> spans;
     Image<SubRay> rays;
   };
+  // The part of the picture that light falls on.
+  struct Lit {
+    int left = 0;
+    int top = 0;
+    LightImage light;
+  };
 
   Renderer(const Scene& scene, const RenderOptions& options, Tracer tracer);
+  [[nodiscard]] double evenness(const Illumination& light) const;
   [[nodiscard]] Samples trace(const Eigen::Vector3d& offset) const;
   [[nodiscard]] SubRay trace_ray(const Eigen::Vector2d& pixel, const Eigen::Vector3d& offset) const;
+  // `shown` gives the projected light at a ray.
+  template <class Shown>
+  [[nodiscard]] ColorImage8 picture(const Shown& shown, float mean, int index) const;
+  template <class Shown>
+  [[nodiscard]] Lit light(const Samples& samples, const Shown& shown, float mean) const;
+  [[nodiscard]] Lit lit_part(const Samples& samples) const;
+  [[nodiscard]] ColorImage8 expose(const Lit& lit, int index) const;
+  [[nodiscard]] double scattered_blur() const;
   void truth_at(int x, int y, TruthMaps& maps) const;
 
   const Scene* scene_;

@@ -1,5 +1,6 @@
 #include "tools/simulator/rig.hpp"
 
+#include "tools/simulator/option_range.hpp"
 #include "tools/simulator/subjects.hpp"
 
 #include <cmath>
@@ -12,10 +13,6 @@ namespace bodyscan::simulator {
 namespace {
 
 using Eigen::Vector3d;
-
-tl::unexpected<Error> usage(std::string message) {
-  return tl::unexpected(Error{ErrorKind::usage, std::move(message)});
-}
 
 Lens camera_lens(double scale) {
   Lens lens;
@@ -50,11 +47,11 @@ Eigen::Matrix3d aim(const Vector3d& from, const Vector3d& to) {
 }  // namespace
 
 Expected<Calibration> make_rig(const RigOptions& options) {
-  if (!(options.scale >= 1.0 / 64 && options.scale <= 2)) return usage("--scale: must lie in 1/64 to 2");
+  if (!(options.scale >= 1.0 / 64 && options.scale <= 2)) return usage_error("--scale: must lie in 1/64 to 2");
   if (options.projector.width < 16 || options.projector.height < 16 || options.projector.width > 8192 ||
       options.projector.height > 8192)
-    return usage("--projector: must lie in 16x16 to 8192x8192");
-  if (!std::isfinite(options.projector_roll)) return usage("--projector-roll: not finite");
+    return usage_error("--projector: must lie in 16x16 to 8192x8192");
+  if (!std::isfinite(options.projector_roll)) return usage_error("--projector-roll: not finite");
 
   Vector3d position;
   if (options.name == "rows") {
@@ -64,7 +61,7 @@ Expected<Calibration> make_rig(const RigOptions& options) {
   } else if (options.name == "diagonal") {
     position = {190, 190, 0};
   } else {
-    return usage("no built-in rig \"" + options.name + "\" (there are: rows, columns, diagonal)");
+    return usage_error("no built-in rig \"" + options.name + "\" (there are: rows, columns, diagonal)");
   }
   const double roll = options.projector_roll * std::numbers::pi / 180;
   const bool on_its_side = std::abs(std::sin(roll)) > std::abs(std::cos(roll));

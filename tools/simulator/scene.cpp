@@ -14,16 +14,6 @@ namespace {
 
 constexpr std::string_view builtin = "builtin:";
 
-Expected<Calibration> find_calibration(const RenderOptions& options) {
-  if (!options.calibration.starts_with(builtin)) return read_calibration(options.calibration);
-  RigOptions rig = options.rig;
-  rig.name = options.calibration.substr(builtin.size());
-  Expected<Calibration> calibration = make_rig(rig);
-  if (!calibration && !calibration.error().message.starts_with("--"))
-    return tl::unexpected(calibration.error().within("--calibration"));
-  return calibration;
-}
-
 Expected<Subject> find_subject(const RenderOptions& options) {
   if (options.subject.starts_with(builtin))
     return make_builtin_subject(options.subject.substr(builtin.size()), options.detail);
@@ -61,30 +51,47 @@ void place(Scene& scene) {
 
 }  // namespace
 
+Expected<Calibration> find_calibration(const std::string& name, RigOptions rig) {
+  if (!name.starts_with(builtin)) return read_calibration(name);
+  rig.name = name.substr(builtin.size());
+  Expected<Calibration> calibration = make_rig(rig);
+  if (!calibration && !calibration.error().message.starts_with("--"))
+    return tl::unexpected(calibration.error().within("--calibration"));
+  return calibration;
+}
+
+Scene place_subject(const Calibration& calibration, Subject subject, const RigidTransform& camera_from_subject,
+                    double scale) {
+  Scene scene;
+  scene.calibration = calibration;
+  scene.subject = std::move(subject);
+  scene.scale = scale;
+  scene.rotation = camera_from_subject.rotation;
+  scene.translation = camera_from_subject.translation;
+  scene.moles_in_subject = scene.subject.facts.moles;
+  place(scene);
+  return scene;
+}
+
 Expected<Scene> make_scene(const RenderOptions& options) {
   if (Expected<void> checked = options.check(); !checked) return tl::unexpected(checked.error());
-  Expected<Calibration> calibration = find_calibration(options);
+  const Expected<Calibration> calibration = find_calibration(options.calibration, options.rig);
   if (!calibration) return tl::unexpected(calibration.error());
   Expected<Subject> subject = find_subject(options);
   if (!subject) return tl::unexpected(subject.error());
 
-  Scene scene;
-  scene.calibration = std::move(*calibration);
-  scene.subject = std::move(*subject);
   if (options.material != "own") {
-    scene.subject.material = options.material == "skin" ? Material::skin : Material::matt;
-    scene.subject.mesh.albedo.clear();
-    scene.subject.mesh.textures_of.clear();
+    subject->material = options.material == "skin" ? Material::skin : Material::matt;
+    subject->mesh.albedo.clear();
+    subject->mesh.textures_of.clear();
   }
-  if (scene.subject.material != Material::skin) scene.subject.facts.moles.clear();
-  scene.scale = options.subject_scale;
+  if (subject->material != Material::skin) subject->facts.moles.clear();
+  RigidTransform pose;
   const Eigen::Vector3d rotation = options.pose_rotation * (std::numbers::pi / 180);
   if (rotation.norm() > 0)
-    scene.rotation = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
-  scene.translation = Eigen::Vector3d(0, 0, reference_distance) + options.pose_translation;
-  scene.moles_in_subject = scene.subject.facts.moles;
-  place(scene);
-  return scene;
+    pose.rotation = Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
+  pose.translation = Eigen::Vector3d(0, 0, reference_distance) + options.pose_translation;
+  return place_subject(*calibration, std::move(*subject), pose, options.subject_scale);
 }
 
 }  // namespace bodyscan::simulator

@@ -24,6 +24,13 @@ struct Scene {
   }
 };
 
+// A built-in rig ("builtin:NAME", the rest of it as `rig` says) or a calibration file.
+Expected<Calibration> find_calibration(const std::string& name, RigOptions rig);
+
+// `subject` before the rig; `camera_from_subject` acts on the scaled subject.
+Scene place_subject(const Calibration& calibration, Subject subject, const RigidTransform& camera_from_subject,
+                    double scale = 1);
+
 // Checks the options, reads the calibration and the subject and places it.
 Expected<Scene> make_scene(const RenderOptions& options);
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "pipeline/base/image.hpp"
+#include "tools/simulator/printed_sheet.hpp"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +55,7 @@ struct Facts {
   std::vector<MoleFact> moles;
 };
 
-enum class Material { matt, skin };
+enum class Material { matt, skin, printed };
 
 // A subject in its own frame: axes as the camera's (x right, y down, z away from the camera), origin at the
 // point that the pose turns about.
@@ -62,6 +64,7 @@ struct Subject {
   TriangleMesh mesh;
   Facts facts;
   Material material = Material::matt;
+  std::optional<PrintedSheet> sheet = std::nullopt;  // of a printed subject, whose frame is the sheet's board frame
 };
 
 }  // namespace bodyscan::simulator

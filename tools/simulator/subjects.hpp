@@ -23,5 +23,7 @@ Subject make_bumps();
 Subject make_head(double detail);
 Subject make_torso(double detail);
 Subject make_forearm(double detail);
+// Sheet and plate of one surface, in the sheet's board frame.
+Subject make_printed_board(const PrintedSheet& sheet);
 
 }  // namespace bodyscan::simulator

@@ -164,6 +164,8 @@ Vector3f Tracer::albedo(unsigned triangle, const Vector3d& weights, const Vector
   const TriangleMesh& mesh = subject.mesh;
   if (subject.material == Material::skin)
     return skin_albedo(scene_->subject_point(point), scene_->moles_in_subject);
+  if (subject.material == Material::printed)
+    return Vector3f::Constant(subject.sheet->albedo(subject.sheet->paper(scene_->subject_point(point))));
   const Triangle& corners = mesh.triangles[triangle];
   const Vector3f w = weights.cast<float>();
   if (!mesh.textures_of.empty() && mesh.textures_of[triangle] >= 0) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "tools/simulator/image_files.hpp"
+#include "tools/simulator/render_options.hpp"
+
+#include <string>
+
+namespace bodyscan::simulator {
+
+// ".jpg" or ".png".
+std::string extension(FrameFormat format);
+
+// A frame in the options' format and quality; the path carries the extension.
+Expected<void> write_frame(const std::filesystem::path& path, const ColorImage8& image,
+                           const RenderOptions& options);
+
+}  // namespace bodyscan::simulator

@@ -1,0 +1,87 @@
+#include "tools/simulator/capture_folder.hpp"
+#include "tools/simulator/command_options.hpp"
+#include "tools/simulator/subjects.hpp"
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace bodyscan::simulator {
+namespace {
+
+void add_subject_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--subject", options.subject, "FILE.obj or builtin:NAME (" + builtin_subject_names() + ")")
+      ->required();
+  command
+      .add_option("--material", options.material, "own (as the subject has it), matt (albedo 0.82) or skin")
+      ->capture_default_str();
+  command.add_option("--scale-subject", options.subject_scale, "mm a unit of the subject")
+      ->capture_default_str();
+  command
+      .add_option_function<std::vector<double>>(
+          "--pose",
+          [&options](const std::vector<double>& pose) {
+            options.pose_rotation = {pose[0], pose[1], pose[2]};
+            options.pose_translation = {pose[3], pose[4], pose[5]};
+          },
+          "rotation vector in degrees about the subject's middle, then mm off 1.05 m before the "
+          "camera: RX,RY,RZ,X,Y,Z")
+      ->delimiter(',')
+      ->expected(6);
+  command
+      .add_option_function<std::vector<double>>(
+          "--motion",
+          [&options](const std::vector<double>& step) { options.motion = {step[0], step[1], step[2]}; },
+          "mm the subject moves from frame to frame: X,Y,Z (the truth is the first frame's)")
+      ->delimiter(',')
+      ->expected(3);
+  command.add_option("--detail", options.detail, "longest triangle side of built-in body parts, mm")
+      ->capture_default_str();
+}
+
+void add_sequence_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--axes",
+          [&options](const std::string& axes) {
+            options.sequence.rows = axes != "columns";
+            options.sequence.columns = axes != "rows";
+          },
+          "stripes along rows, columns or both")
+      ->check(CLI::IsMember({"rows", "columns", "both"}))
+      ->default_str("rows");
+  command.add_flag("!--no-inverses", options.sequence.inverses, "leave the complement pictures out");
+  command.add_flag("!--no-mesh", options.write_mesh, "do not write truth/mesh.obj");
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App& command = *app.add_subcommand("render", "Render a capture folder and the truth beside it");
+  add_subject_options(command, *options);
+  command.add_option("--calibration", options->calibration, "FILE.yml or builtin:RIG (rows, columns, diagonal)")
+      ->required();
+  command.add_option("--output", options->output, "the capture folder")->required();
+  add_rig_options(command, options->rig);
+  add_light_options(command, *options);
+  add_camera_options(command, *options);
+  add_sequence_options(command, *options);
+  command.footer(
+      "truth/reachable.png is white where all rays of a pixel and its four neighbours meet one smooth piece "
+      "of the\n"
+      "surface, inside the projector's picture, directly lit, and at most 75 degrees from its normal for "
+      "camera and\n"
+      "projector.");
+  command.callback([options, &action] {
+    action = [options]() -> Expected<void> {
+      const Expected<Truth> truth = render_capture(*options);
+      if (!truth) return tl::unexpected(truth.error());
+      return {};
+    };
+  });
+}
+
+}  // namespace bodyscan::simulator
