@@ -22,7 +22,8 @@ namespace bodyscan {
 namespace {
 
 using Part = Expected<std::string> (*)(const BenchOptions&);
-constexpr std::array<std::pair<const char*, Part>, 5> parts{{{"accuracy", accuracy_part},
+constexpr std::array<std::pair<const char*, Part>, 6> parts{{{"accuracy", accuracy_part},
+                                                             {"calibration", calibration_part},
                                                              {"speed", speed_part},
                                                              {"growth", growth_part},
                                                              {"streaming", streaming_part},

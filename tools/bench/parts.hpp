@@ -14,6 +14,7 @@ struct BenchOptions {
 
 // Each measures one subject and returns its tables in Markdown. Progress goes to standard error.
 Expected<std::string> accuracy_part(const BenchOptions& options);
+Expected<std::string> calibration_part(const BenchOptions& options);
 Expected<std::string> speed_part(const BenchOptions& options);
 Expected<std::string> growth_part(const BenchOptions& options);
 Expected<std::string> streaming_part(const BenchOptions& options);
