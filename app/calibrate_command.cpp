@@ -1,8 +1,6 @@
 #include "app/calibrate_session.hpp"
-#include "app/calibration_report_json.hpp"
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/version.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -40,9 +38,8 @@ Expected<void> run(const CalibrateOptions& options, bool json) {
     return calibrate_session(options, progress);
   }();
   if (!outcome) return tl::unexpected(outcome.error());
-  const CalibrationResult& result = outcome->result;
-  return print_result(json ? to_json(result.report, result.calibration, std::string(software_version()))
-                           : summary(result.report, options.output));
+  const auto& [calibration, report] = outcome->result;
+  return print_result(json ? to_json(report, calibration, outcome->run) : summary(report, options.output));
 }
 
 }  // namespace

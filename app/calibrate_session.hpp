@@ -1,12 +1,11 @@
 #pragma once
 
+#include "app/calibration_report_json.hpp"
 #include "app/console.hpp"
 #include "pipeline/calibration/calibrate.hpp"
 
 #include <filesystem>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace bodyscan {
 
@@ -20,7 +19,7 @@ struct CalibrateOptions {
 
 struct CalibrateOutcome {
   CalibrationResult result;
-  std::vector<std::pair<std::string, double>> timings_ms;  // stage by stage, in order
+  CalibrationRun run;
 };
 
 // Reads the session, finds the boards, calibrates and writes. Outputs appear only when all is done. Errors:

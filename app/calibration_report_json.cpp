@@ -72,7 +72,9 @@ Json list_of(const std::vector<Value>& values) {
 }  // namespace
 
 std::string to_json(const CalibrationReport& report, const Calibration& calibration,
-                    const std::string& software) {
+                    const CalibrationRun& run) {
+  Json timings = Json::object();
+  for (const auto& [stage, milliseconds] : run.timings_ms) timings[stage] = milliseconds;
   const Json json = {
       {"camera_rms_px", report.camera_rms_px},
       {"projector_rms_px", report.projector_rms_px},
@@ -86,7 +88,8 @@ std::string to_json(const CalibrationReport& report, const Calibration& calibrat
       {"calibration", json_of(calibration)},
       {"parameters", list_of(report.parameters)},
       {"poses", list_of(report.poses)},
-      {"software", software},
+      {"timings_ms", timings},
+      {"software", run.software},
   };
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -4,12 +4,20 @@
 #include "pipeline/calibration/calibration_report.hpp"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace bodyscan {
 
+// How a calibration was made.
+struct CalibrationRun {
+  std::string software;                                    // and its version
+  std::vector<std::pair<std::string, double>> timings_ms;  // stage by stage, in order
+};
+
 // One JSON object with everything that the report and the calibration hold; a number that is not finite
-// becomes null, and so does the sigma of a parameter that was fixed. `software` is the version that made it.
+// becomes null, and so does the sigma of a parameter that was fixed.
 std::string to_json(const CalibrationReport& report, const Calibration& calibration,
-                    const std::string& software);
+                    const CalibrationRun& run);
 
 }  // namespace bodyscan

@@ -1,7 +1,7 @@
 #include "app/reconstruct_files.hpp"
 
+#include "app/calibration_fit.hpp"
 #include "pipeline/base/read_file.hpp"
-#include "pipeline/base/size_text.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
 
 #include <algorithm>
@@ -20,30 +20,11 @@ std::string name_and_checksum(const std::filesystem::path& path, const std::vect
   return path.filename().string() + " (CRC-32 " + checksum.data() + ")";
 }
 
-Expected<void> check_fit(const Calibration& calibration, const CaptureFolder& capture,
-                         const ReconstructOptions& options) {
-  const auto check = [&](const char* key, Size calibrated, const char* what,
-                         Size captured) -> Expected<void> {
-    if (calibrated == captured) return {};
-    return input_error(options.calibration.string() + ": " + key + ": " + text_of(calibrated) + ", but the " +
-                       what + " of " + options.capture.string() + " has " + text_of(captured));
-  };
-  return check("projector_size", calibration.projector.size, "projector", capture.manifest().projector)
-      .and_then([&] { return check("camera_size", calibration.camera.size, "camera", capture.size()); });
-}
-
 std::vector<std::filesystem::path> outputs_of(const ReconstructOptions& options) {
   std::vector<std::filesystem::path> outputs{options.model};
   for (const auto* path : {&options.report, &options.preview, &options.depth, &options.rows})
     if (*path) outputs.push_back(**path);
   return outputs;
-}
-
-Expected<void> check_photographs_kept(const ReconstructOptions& options, const CaptureFolder& capture) {
-  std::vector<std::filesystem::path> photographs;
-  for (const ManifestFrame& frame : capture.manifest().frames)
-    photographs.push_back(options.capture / frame.file);
-  return check_distinct(outputs_of(options), photographs);
 }
 
 }  // namespace
@@ -56,13 +37,15 @@ Expected<void> check_paths(const ReconstructOptions& options) {
 Expected<ReconstructInputs> open_inputs(const ReconstructOptions& options) {
   Expected<CaptureFolder> capture = CaptureFolder::open(options.capture);
   if (!capture) return tl::unexpected(capture.error());
-  if (Expected<void> kept = check_photographs_kept(options, *capture); !kept)
+  if (Expected<void> kept = check_distinct(outputs_of(options), capture->files()); !kept)
     return tl::unexpected(kept.error());
   const Expected<std::vector<std::byte>> file = read_file(options.calibration, max_calibration_bytes);
   if (!file) return tl::unexpected(file.error());
   Expected<Calibration> calibration = parse_calibration(as_text(*file), options.calibration.string());
   if (!calibration) return tl::unexpected(calibration.error());
-  if (Expected<void> fit = check_fit(*calibration, *capture, options); !fit)
+  if (Expected<void> fit = check_fit(*calibration, options.calibration,
+                                     {options.capture, capture->size(), capture->manifest().projector});
+      !fit)
     return tl::unexpected(fit.error());
   const auto& frames = capture->manifest().frames;
   const bool has_rows = std::any_of(frames.begin(), frames.end(), [](const ManifestFrame& frame) {

@@ -85,6 +85,17 @@ Expected<void> CalibrationSession::check_size(const std::filesystem::path& path,
                      text_of(size_));
 }
 
+std::vector<std::filesystem::path> CalibrationSession::files() const {
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < pose_count(); ++i) {
+    const PoseFiles& pose = pose_files(i);
+    const auto more =
+        pose.is_pair() ? std::vector{folder_ / *pose.printed, folder_ / *pose.projected} : capture(i).files();
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
+}
+
 Expected<Luma> CalibrationSession::load_printed(int pose) const {
   return load(pose_files(pose), *pose_files(pose).printed);
 }

@@ -23,6 +23,9 @@ class CalibrationSession {
   [[nodiscard]] Size size() const { return size_; }  // of every picture
   [[nodiscard]] int pose_count() const { return static_cast<int>(manifest_.poses.size()); }
 
+  // Every picture and manifest of a pose.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
   // The pictures of a pose that is a pair.
   [[nodiscard]] Expected<Luma> load_printed(int pose) const;
   [[nodiscard]] Expected<Luma> load_projected(int pose) const;

@@ -66,6 +66,12 @@ Expected<ColorImage8> CaptureFolder::load_color(int index) const {
   return image;
 }
 
+std::vector<std::filesystem::path> CaptureFolder::files() const {
+  std::vector<std::filesystem::path> files{folder_ / "capture.json"};
+  for (int i = 0; i < frame_count(); ++i) files.push_back(path_of(i));
+  return files;
+}
+
 std::filesystem::path CaptureFolder::path_of(int index) const {
   return folder_ / manifest_.frames[static_cast<std::size_t>(index)].file;
 }

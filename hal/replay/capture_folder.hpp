@@ -21,6 +21,9 @@ class CaptureFolder {
   [[nodiscard]] Size size() const { return size_; }  // of every frame
   [[nodiscard]] int frame_count() const { return static_cast<int>(manifest_.frames.size()); }
 
+  // capture.json and the frames.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
   // Frame `index` (0 to frame_count() - 1) in decode order.
   [[nodiscard]] Expected<Frame> load(int index) const;
 

@@ -150,13 +150,19 @@ Expected<Calibration> read_calibration(const std::filesystem::path& path) {
   return parse_calibration(as_text(*file), path.string());
 }
 
-Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path,
-                                 const CalibrationNotes& notes) {
-  if (Expected<void> good = check_calibration(calibration); !good)
-    return output_error(path.string() + ": " + good.error().message);
+Expected<std::string> calibration_text(const Calibration& calibration, const CalibrationNotes& notes) {
+  if (Expected<void> good = check_calibration(calibration); !good) return output_error(good.error().message);
+  return file_text(calibration) + notes_text(notes);
+}
+
+Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path) {
+  const Expected<std::string> text = calibration_text(calibration).map_error([&](const Error& error) {
+    return error.within(path.string());
+  });
+  if (!text) return tl::unexpected(text.error());
   Expected<AtomicFile> file = AtomicFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  if (Expected<void> written = file->write(file_text(calibration) + notes_text(notes)); !written) return written;
+  if (Expected<void> written = file->write(*text); !written) return written;
   return file->commit(Durability::power_cut);
 }
 

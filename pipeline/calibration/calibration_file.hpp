@@ -31,9 +31,11 @@ struct CalibrationNotes {
   std::optional<double> stereo_rms_px;  // both together
 };
 
-// The file is complete or not there, even after a power cut. A calibration that check_calibration rejects is
-// an error of kind `output`. Numbers read back equal.
-Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path,
-                                 const CalibrationNotes& notes = {});
+// The file's content. A calibration that check_calibration rejects is an error of kind `output`. Numbers read
+// back equal.
+Expected<std::string> calibration_text(const Calibration& calibration, const CalibrationNotes& notes = {});
+
+// The file is complete or not there, even after a power cut.
+Expected<void> write_calibration(const Calibration& calibration, const std::filesystem::path& path);
 
 }  // namespace bodyscan

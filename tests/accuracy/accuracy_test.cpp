@@ -1,4 +1,5 @@
 #include "tests/accuracy/thresholds.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/bench/child_process.hpp"
 #include "tools/bench/scenes.hpp"
 #include "tools/evaluate/evaluation.hpp"
@@ -10,29 +11,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace bodyscan {
 namespace {
 
 constexpr double quarter = 0.25;
 constexpr double footprint_mm = 0.66;  // of a pixel at 1.05 m: finer true meshes only take time
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() { std::filesystem::create_directories(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_ =
-      std::filesystem::path(testing::TempDir()) / ("bodyscan_accuracy_" + std::to_string(getpid()));
-};
 
 class Accuracy : public testing::TestWithParam<Thresholds> {};
 

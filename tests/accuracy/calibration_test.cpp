@@ -1,6 +1,7 @@
 // Calibrations that the executable finds in simulated sessions, and in the real pictures of a printed board
 // when they are there (BODYSCAN_SHARED, else ../shared beside the source tree).
 #include "pipeline/calibration/calibration_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/bench/child_process.hpp"
 #include "tools/simulator/session_folder.hpp"
 
@@ -11,7 +12,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace bodyscan {
 namespace {
@@ -20,21 +20,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using simulator::Blunder;
 using simulator::SessionMethod;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() { fs::create_directories(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_ = fs::path(testing::TempDir()) / ("bodyscan_calibration_" + std::to_string(getpid()));
-};
 
 simulator::SessionOptions session(SessionMethod method, double scale, const fs::path& folder) {
   simulator::SessionOptions options;

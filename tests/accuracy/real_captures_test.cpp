@@ -3,6 +3,7 @@
 #include "pipeline/calibration/calibration_file.hpp"
 #include "pipeline/model/vrml_reader.hpp"
 #include "tests/accuracy/board.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/bench/child_process.hpp"
 #include "tools/bench/link_capture.hpp"
 
@@ -12,7 +13,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 namespace bodyscan {
 namespace {
@@ -46,11 +46,6 @@ class RealCaptures : public testing::TestWithParam<bool> {
                 << "; set BODYSCAN_SHARED to the folder that holds data/procam-board ***\n\n";
       GTEST_SKIP();
     }
-    fs::create_directories(work_);
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    fs::remove_all(work_, ignored);
   }
 
   [[nodiscard]] static std::string white_frame(const fs::path& capture) {
@@ -79,7 +74,7 @@ class RealCaptures : public testing::TestWithParam<bool> {
   }
 
  private:
-  fs::path work_ = fs::path(testing::TempDir()) / ("bodyscan_real_" + std::to_string(getpid()));
+  const TemporaryFolder work_;
 };
 
 TEST_P(RealCaptures, OfAPrintedBoardGiveAPlane) {

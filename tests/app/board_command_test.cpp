@@ -1,7 +1,7 @@
 #include "app/command_line.hpp"
 #include "pipeline/base/read_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,13 +15,6 @@ namespace fs = std::filesystem;
 
 class BoardCommand : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "bodyscan-board-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   // `bodyscan board --columns 9 --rows 7 --square-mm 25 --output FOLDER/file`, each option replaced or added
   // to by the pairs of `options`.
   ExitStatus run(const std::string& file, const std::vector<std::string>& options = {}) {
@@ -48,7 +41,8 @@ class BoardCommand : public testing::Test {
     return std::string(as_text(read_file(folder_ / file, 1 << 20).value()));
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
   std::string output_;
   std::string error_;
 };

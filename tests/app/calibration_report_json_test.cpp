@@ -52,8 +52,9 @@ CalibrationReport sample_calibration_report() {
 }
 
 TEST(CalibrationReportJson, HoldsEverythingUnderItsKey) {
-  const auto json = nlohmann::ordered_json::parse(
-      to_json(sample_calibration_report(), sample_calibration(), "bodyscan 1.2.3"));
+  const auto json =
+      nlohmann::ordered_json::parse(to_json(sample_calibration_report(), sample_calibration(),
+                                            {"bodyscan 1.2.3", {{"open", 1.5}, {"calibrate", 20}}}));
   EXPECT_EQ(json, nlohmann::ordered_json::parse(R"json({
     "camera_rms_px": 0.25, "projector_rms_px": 0.5, "joint_rms_px": 0.375,
     "leave_one_out_camera_px": 1.0, "leave_one_out_projector_px": 2.0,
@@ -79,6 +80,7 @@ TEST(CalibrationReportJson, HoldsEverythingUnderItsKey) {
                  {"at": [30.0, 40.0], "error": [5.0, 6.0], "used": false}],
       "projector": [{"at": [1.0, 2.0], "error": [3.0, 4.0], "used": true}]
     }],
+    "timings_ms": {"open": 1.5, "calibrate": 20.0},
     "software": "bodyscan 1.2.3"
   })json"));
 }
@@ -88,14 +90,14 @@ TEST(CalibrationReportJson, NumbersThatAreNoneBecomeNull) {
   report.leave_one_out_camera_px = std::numeric_limits<double>::quiet_NaN();
   report.parameters[0].sigma = std::numeric_limits<double>::infinity();
   report.poses[0].camera[0].error.x() = -std::numeric_limits<double>::infinity();
-  const auto json = nlohmann::json::parse(to_json(report, sample_calibration(), ""));
+  const auto json = nlohmann::json::parse(to_json(report, sample_calibration(), {}));
   EXPECT_TRUE(json["leave_one_out_camera_px"].is_null());
   EXPECT_TRUE(json["parameters"][0]["sigma"].is_null());
   EXPECT_TRUE(json["poses"][0]["camera"][0]["error"][0].is_null());
 }
 
 TEST(CalibrationReportJson, AReportOfNothingHasEmptyLists) {
-  const auto json = nlohmann::json::parse(to_json({}, {}, "caf\xe9"));
+  const auto json = nlohmann::json::parse(to_json({}, {}, {"caf\xe9", {}}));
   for (const char* list : {"advice", "parameters", "poses"})
     EXPECT_TRUE(json[list].is_array() && json[list].empty()) << list;
 }

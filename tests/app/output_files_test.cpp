@@ -2,8 +2,8 @@
 
 #include "pipeline/base/read_file.hpp"
 #include "pipeline/image/codec.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,14 +17,8 @@ namespace fs = std::filesystem;
 
 class OutputFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "bodyscan-output-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(OutputFiles, DistinctPathsPass) {

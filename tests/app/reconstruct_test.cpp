@@ -4,9 +4,10 @@
 #include "hal/replay/capture_manifest.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
 #include "pipeline/image/codec.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -36,8 +37,7 @@ void write_flat_capture(const fs::path& folder) {
     const std::string name = std::to_string(manifest.frames.size()) + ".png";
     const auto level = static_cast<std::uint8_t>(pattern.kind == PatternKind::white ? 200 : 20);
     const auto file = encode_png(GrayImage8(camera, level));
-    std::ofstream(folder / name, std::ios::binary)
-        .write(reinterpret_cast<const char*>(file->data()), static_cast<std::streamsize>(file->size()));
+    write_bytes(folder / name, *file);
     manifest.frames.push_back({name, pattern, {}});
   }
   ASSERT_TRUE(write_manifest(manifest, folder / "capture.json"));
@@ -46,9 +46,6 @@ void write_flat_capture(const fs::path& folder) {
 class ReconstructCommand : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = fs::temp_directory_path() / "bodyscan-reconstruct-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     fs::create_directories(folder_ / "results");
     write_flat_capture(folder_);
     options_.capture = folder_;
@@ -56,9 +53,9 @@ class ReconstructCommand : public testing::Test {
     options_.model = folder_ / "results" / "model.wrl";
     options_.report = folder_ / "results" / "report.json";
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
   ReconstructOptions options_;
 };
 

@@ -2,8 +2,9 @@
 
 #include "pipeline/image/codec.hpp"
 #include "tests/pipeline/image/image_fixtures.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -20,29 +21,21 @@ constexpr Size picture{8, 4};
 class CalibrationSessionTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = fs::temp_directory_path() / "bodyscan-session-XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
     std::ofstream(folder_ / "session.json") << R"({
       "format": "bodyscan-calibration-session", "version": 1,
       "board": {"columns": 9, "rows": 7, "square_mm": 25}, "projector": {"width": 64, "height": 32},
       "projected_board": {"columns": 3, "rows": 3, "first_corner_px": [10, 5], "square_px": 8},
       "poses": [{"printed": "p0", "projected": "q0"}, {"capture": "c1"}, {"printed": "p2", "projected": "q2"}]
     })";
-    for (const int pose : {0, 2}) {
-      write_picture("p" + std::to_string(pose), static_cast<std::uint8_t>(10 * pose));
-      write_picture("q" + std::to_string(pose), static_cast<std::uint8_t>(10 * pose + 1));
-    }
+    write_picture("p0", 0);
+    write_picture("q0", 1);
+    write_picture("p2", 20);
+    write_picture("q2", 21);
     write_capture({.rows = true, .columns = true}, {64, 32}, picture);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  void write_bytes(const std::string& name, std::span<const std::byte> bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  }
   void write_picture(const std::string& name, std::uint8_t value, Size size = picture) const {
-    write_bytes(name, encode_png(GrayImage8(size, value)).value());
+    write_bytes(folder_ / name, encode_png(GrayImage8(size, value)).value());
   }
   void write_capture(const SequenceOptions& options, Size projector, Size size) const {
     fs::create_directories(folder_ / "c1");
@@ -63,7 +56,8 @@ class CalibrationSessionTest : public testing::Test {
     return session ? "opened" : session.error().message;
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(CalibrationSessionTest, OffersPicturesAndCaptures) {
@@ -81,8 +75,8 @@ TEST_F(CalibrationSessionTest, OffersPicturesAndCaptures) {
 }
 
 TEST_F(CalibrationSessionTest, PicturesMayBeJpegsOrHaveSixteenBits) {
-  write_bytes("p0", encode_png(GrayImage16(picture, 54321)).value());
-  write_bytes("q0", make_gray_jpeg(GrayImage8(picture, 99)));
+  write_bytes(folder_ / "p0", encode_png(GrayImage16(picture, 54321)).value());
+  write_bytes(folder_ / "q0", make_gray_jpeg(GrayImage8(picture, 99)));
   const auto session = CalibrationSession::open(folder_);
   ASSERT_TRUE(session) << session.error().message;
   EXPECT_EQ(std::get<GrayImage16>(session->load_printed(0).value())(0, 0), 54321);
@@ -131,10 +125,10 @@ TEST_F(CalibrationSessionTest, NamesACaptureOfAnotherProjector) {
 }
 
 TEST_F(CalibrationSessionTest, NamesABombAndANonImage) {
-  write_bytes("q0", png_claiming(encode_png(GrayImage8(picture, 0)).value(), 16000, 16000));
+  write_bytes(folder_ / "q0", png_claiming(encode_png(GrayImage8(picture, 0)).value(), 16000, 16000));
   EXPECT_EQ(open_message(),
             "pose 0: " + path("q0") + ": 16000 x 16000 pixels: over the limit of 64000000 pixels");
-  write_bytes("p0", std::as_bytes(std::span("hello")));
+  write_bytes(folder_ / "p0", std::as_bytes(std::span("hello")));
   EXPECT_EQ(open_message(), "pose 0: " + path("p0") + ": not a JPEG or PNG file");
 }
 

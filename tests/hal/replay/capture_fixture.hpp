@@ -3,6 +3,8 @@
 #include "hal/replay/capture_manifest.hpp"
 #include "pipeline/image/codec.hpp"
 #include "pipeline/pattern/sequence.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -17,7 +19,6 @@ namespace bodyscan {
 class CaptureFixture : public testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder_);
     const PatternSequence sequence = make_sequence({16, 64}).value();
     manifest_.projector = sequence.projector;
     for (const Pattern& pattern : sequence.patterns) {
@@ -27,24 +28,19 @@ class CaptureFixture : public testing::Test {
     }
     ASSERT_TRUE(write_manifest(manifest_, folder_ / "capture.json"));
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   static std::uint8_t value(int index) { return static_cast<std::uint8_t>(10 * index); }
 
   template <class Pixel>
   void write_image(const std::string& name, const Image<Pixel>& image) const {
-    write_bytes(name, encode_png(image).value());
-  }
-
-  void write_bytes(const std::string& name, std::span<const std::byte> bytes) const {
-    std::ofstream(folder_ / name, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    write_bytes(folder_ / name, encode_png(image).value());
   }
 
   [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   static constexpr Size frame_size{8, 4};
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "bodyscan_capture";
+  TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
   CaptureManifest manifest_;
 };
 

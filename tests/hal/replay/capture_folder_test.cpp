@@ -34,7 +34,7 @@ TEST_F(CaptureFolderTest, OffersFramesInDecodeOrderWhateverTheFilesOrder) {
 
 TEST_F(CaptureFolderTest, LoadsJpegsAndSixteenBits) {
   write_image("frame_2.png", GrayImage16(frame_size, 54321));
-  write_bytes("frame_3.png",
+  write_bytes(folder_ / "frame_3.png",
               make_gray_jpeg(GrayImage8(frame_size, 99)));  // the content decides, not the name
   const auto capture = CaptureFolder::open(folder_);
   ASSERT_TRUE(capture) << capture.error().message;
@@ -77,7 +77,7 @@ TEST_F(CaptureFolderTest, OpenFindsTheSizeBehindLongMetadata) {
   comment[2] = std::byte{59998 >> 8};
   comment[3] = std::byte{59998 & 255};
   for (int i = 0; i < 3; ++i) jpeg.insert(jpeg.begin() + 2, comment.begin(), comment.end());
-  write_bytes("frame_3.png", jpeg);
+  write_bytes(folder_ / "frame_3.png", jpeg);
   EXPECT_EQ(open_message(), "opened");
 }
 
@@ -97,12 +97,13 @@ TEST_F(CaptureFolderTest, NamesAFrameOfAnotherSize) {
 }
 
 TEST_F(CaptureFolderTest, NamesABombAndANonImage) {
-  write_bytes("frame_5.png", png_claiming(encode_png(GrayImage8(frame_size, 0)).value(), 16000, 16000));
+  write_bytes(folder_ / "frame_5.png",
+              png_claiming(encode_png(GrayImage8(frame_size, 0)).value(), 16000, 16000));
   EXPECT_EQ(open_message(),
             path("frame_5.png") + ": 16000 x 16000 pixels: over the limit of 64000000 pixels");
-  write_bytes("frame_4.png", {});
+  write_bytes(folder_ / "frame_4.png", {});
   EXPECT_EQ(open_message(), path("frame_4.png") + ": the file is empty");
-  write_bytes("frame_3.png", std::as_bytes(std::span("hello")));
+  write_bytes(folder_ / "frame_3.png", std::as_bytes(std::span("hello")));
   EXPECT_EQ(open_message(), path("frame_3.png") + ": not a JPEG or PNG file");
 }
 

@@ -1,10 +1,11 @@
 #include "process.hpp"
 #include "synthetic_capture.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -113,16 +114,6 @@ const std::vector<BadInput> bad_inputs = {
      },
      {"white", "black"}},
 };
-
-// Every file below a folder and what it holds.
-std::map<std::string, std::string> snapshot(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    files[fs::relative(entry.path(), folder)] = entry.is_regular_file() ? read_text(entry.path()) : "";
-  }
-  return files;
-}
 
 class BadInputs : public testing::TestWithParam<BadInput> {};
 

@@ -2,6 +2,8 @@
 #include "pipeline/model/vrml_reader.hpp"
 #include "process.hpp"
 #include "synthetic_capture.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <algorithm>
 #include <filesystem>

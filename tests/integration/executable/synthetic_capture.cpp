@@ -40,34 +40,6 @@ std::uint8_t encode_srgb(double light) {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = std::filesystem::temp_directory_path() / "bodyscan-test-XXXXXX";
-  EXPECT_NE(mkdtemp(name.data()), nullptr);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-void replace_in(const std::filesystem::path& path, const std::string& from, const std::string& to) {
-  std::string text = read_text(path);
-  const std::size_t place = text.find(from);
-  ASSERT_NE(place, std::string::npos) << path << " does not hold " << from;
-  write_text(path, text.replace(place, from.size(), to));
-}
-
 Calibration small_calibration() {
   Calibration calibration;
   calibration.camera = {.size = {160, 120}, .fx = 175, .fy = 175, .cx = 79.5, .cy = 59.5, .distortion = {}};

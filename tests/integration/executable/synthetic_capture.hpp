@@ -4,29 +4,8 @@
 #include "pipeline/pattern/sequence.hpp"
 
 #include <filesystem>
-#include <string>
 
 namespace bodyscan {
-
-// A folder that goes with this object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-void write_text(const std::filesystem::path& path, const std::string& text);
-std::string read_text(const std::filesystem::path& path);
-
-// Replaces the first `from` in a file; the test fails where there is none.
-void replace_in(const std::filesystem::path& path, const std::string& from, const std::string& to);
 
 // A camera of 160 x 120 pixels and a projector of 32 x 24, 270 mm below it, that looks at the same wall.
 Calibration small_calibration();

@@ -1,11 +1,12 @@
 #include "pipeline/base/atomic_file.hpp"
 
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
+
 #include <fstream>
-#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 
 namespace bodyscan {
@@ -15,16 +16,6 @@ namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
-  AtomicFileTest() {
-    std::string name = (fs::temp_directory_path() / "bodyscan_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~AtomicFileTest() override { fs::remove_all(folder_); }
-
-  static std::string text_of(const fs::path& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   static void put(const fs::path& path, std::string_view text) {
     auto file = AtomicFile::create(path);
     ASSERT_TRUE(file) << file.error().message;
@@ -40,7 +31,8 @@ class AtomicFileTest : public testing::Test {
     EXPECT_EQ(file.error().message, message);
   }
 
-  fs::path folder_;
+  TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(AtomicFileTest, AppearsWithCommit) {
@@ -50,7 +42,7 @@ TEST_F(AtomicFileTest, AppearsWithCommit) {
     ASSERT_TRUE(file && file->write("one ") && file->write("two"));
     EXPECT_FALSE(fs::exists(path));
     ASSERT_TRUE(file->commit(durability));
-    EXPECT_EQ(text_of(path), "one two");
+    EXPECT_EQ(read_text(path), "one two");
   }
   EXPECT_EQ(entries(), 2);
 }
@@ -63,16 +55,16 @@ TEST_F(AtomicFileTest, LeavesNothingWithoutCommit) {
     EXPECT_EQ(entries(), 2);
   }
   EXPECT_EQ(entries(), 1);
-  EXPECT_EQ(text_of(folder_ / "file"), "old");
+  EXPECT_EQ(read_text(folder_ / "file"), "old");
 }
 
 TEST_F(AtomicFileTest, ReplacesTheOldFileAtOnce) {
   put(folder_ / "file", "old");
   auto file = AtomicFile::create(folder_ / "file");
   ASSERT_TRUE(file && file->write("new"));
-  EXPECT_EQ(text_of(folder_ / "file"), "old");
+  EXPECT_EQ(read_text(folder_ / "file"), "old");
   ASSERT_TRUE(file->commit(Durability::process));
-  EXPECT_EQ(text_of(folder_ / "file"), "new");
+  EXPECT_EQ(read_text(folder_ / "file"), "new");
 }
 
 TEST_F(AtomicFileTest, LetsTwoWritersOfOneNameFinish) {
@@ -81,7 +73,7 @@ TEST_F(AtomicFileTest, LetsTwoWritersOfOneNameFinish) {
   ASSERT_TRUE(first && second && first->write("first") && second->write("second"));
   ASSERT_TRUE(first->commit(Durability::process));
   ASSERT_TRUE(second->commit(Durability::process));
-  EXPECT_EQ(text_of(folder_ / "file"), "second");
+  EXPECT_EQ(read_text(folder_ / "file"), "second");
 }
 
 TEST_F(AtomicFileTest, MovesItsFile) {
@@ -93,7 +85,7 @@ TEST_F(AtomicFileTest, MovesItsFile) {
   moved = std::move(*second);
   EXPECT_EQ(entries(), 1);
   ASSERT_TRUE(moved.commit(Durability::process));
-  EXPECT_EQ(text_of(folder_ / "second"), "2");
+  EXPECT_EQ(read_text(folder_ / "second"), "2");
 }
 
 TEST_F(AtomicFileTest, FollowsSymbolicLinks) {
@@ -102,7 +94,7 @@ TEST_F(AtomicFileTest, FollowsSymbolicLinks) {
   fs::create_symlink(folder_ / "elsewhere/file", folder_ / "link");
   put(folder_ / "link", "new");
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-  EXPECT_EQ(text_of(folder_ / "elsewhere/file"), "new");
+  EXPECT_EQ(read_text(folder_ / "elsewhere/file"), "new");
 }
 
 TEST_F(AtomicFileTest, WritesDevicesAndPipesInPlace) {
@@ -132,7 +124,7 @@ TEST_F(AtomicFileTest, WorksInTheCurrentFolder) {
   const bool done = file && file->write("here") && file->commit(Durability::power_cut);
   fs::current_path(before);
   EXPECT_TRUE(done);
-  EXPECT_EQ(text_of(folder_ / "file"), "here");
+  EXPECT_EQ(read_text(folder_ / "file"), "here");
 }
 
 TEST_F(AtomicFileTest, NamesTheFileAndTheReason) {

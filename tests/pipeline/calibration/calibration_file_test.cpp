@@ -1,5 +1,7 @@
 #include "pipeline/calibration/calibration_file.hpp"
 
+#include "tests/support/temporary_folder.hpp"
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -39,16 +41,26 @@ void expect_equal(const Calibration& a, const Calibration& b) {
 
 class CalibrationFile : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "bodyscan_calibration";
+  const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "calibration.yml";
 };
 
 TEST_F(CalibrationFile, RoundTripKeepsEveryBit) {
   ASSERT_TRUE(write_calibration(example(), path_));
   const auto read = read_calibration(path_);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_equal(*read, example());
+}
+
+TEST_F(CalibrationFile, NotesAreReadByOpenCvAndPassedOver) {
+  const auto text = calibration_text(example(), {"2026-11-25T09:30:00Z", 0.125, 0.25, 0.5});
+  ASSERT_TRUE(text) << text.error().message;
+  const cv::FileStorage storage(*text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  EXPECT_EQ(static_cast<std::string>(storage["calibrated_at"]), "2026-11-25T09:30:00Z");
+  EXPECT_EQ(static_cast<double>(storage["camera_rms_px"]), 0.125);
+  EXPECT_EQ(static_cast<double>(storage["projector_rms_px"]), 0.25);
+  EXPECT_EQ(static_cast<double>(storage["stereo_rms_px"]), 0.5);
+  const auto read = parse_calibration(*text, "notes");
   ASSERT_TRUE(read) << read.error().message;
   expect_equal(*read, example());
 }

@@ -1,6 +1,7 @@
 #include "pipeline/model/vrml_reader.hpp"
 
 #include "tests/pipeline/model/model_test_support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <charconv>
 #include <fstream>

@@ -2,6 +2,8 @@
 
 #include "pipeline/model/vrml_reader.hpp"
 #include "tests/pipeline/model/model_test_support.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <clocale>
 #include <csignal>
@@ -29,7 +31,7 @@ TEST(VrmlWriter, WritesExactlyThis) {
   const ModelInfo info = {
       .calibration = "lab \"A\"", .software = "bodyscan 1.2", .comment = "", .closed = false};
   ASSERT_TRUE(write_model(folder / "model.wrl", triangle, info));
-  EXPECT_EQ(text_of(folder / "model.wrl"), R"(#VRML V2.0 utf8
+  EXPECT_EQ(read_text(folder / "model.wrl"), R"(#VRML V2.0 utf8
 WorldInfo {
   title "bodyscan model"
   info [
@@ -71,7 +73,7 @@ TEST(VrmlWriter, MakesAPointCloudOfAMeshWithoutFaces) {
   Mesh cloud = triangle;
   cloud.faces.clear();
   ASSERT_TRUE(write_model(folder / "cloud.wrl", cloud, {}));
-  const std::string text = text_of(folder / "cloud.wrl");
+  const std::string text = read_text(folder / "cloud.wrl");
   EXPECT_NE(text.find("geometry PointSet {\ncoord Coordinate { point [\n0 0 1000\n"), std::string::npos);
   EXPECT_TRUE(text.ends_with("0 0 1\n] }\n    }\n  }\n}\n"));
   for (const char* field : {"IndexedFaceSet", "coordIndex", "solid", "colorPerVertex"}) {
@@ -93,7 +95,7 @@ TEST(VrmlWriter, RoundTripsInfoAndClosedSurfacesWithoutColors) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->info, info);
   expect_same(read->mesh, plain);
-  EXPECT_EQ(text_of(folder / "model.wrl").find("Color {"), std::string::npos);
+  EXPECT_EQ(read_text(folder / "model.wrl").find("Color {"), std::string::npos);
 }
 
 // 150,000 points and 300,000 faces: several blocks and batches of each array.
@@ -116,7 +118,7 @@ TEST(VrmlWriter, RoundTripsManyBlocksWhateverTheSizeOfTheCalls) {
   pieces(std::span(mesh.colors), 1499, [&](auto part) { return writer->write_colors(part); });
   pieces(std::span(mesh.faces), 70001, [&](auto part) { return writer->write_faces(part); });
   ASSERT_TRUE(writer->finish());
-  EXPECT_EQ(text_of(folder / "pieces.wrl"), text_of(folder / "whole.wrl"));
+  EXPECT_EQ(read_text(folder / "pieces.wrl"), read_text(folder / "whole.wrl"));
 }
 
 struct GermanNumbers : std::numpunct<char> {
@@ -139,7 +141,7 @@ TEST(VrmlWriter, IsIndependentOfTheLocale) {
   std::setlocale(LC_ALL, c_locale.c_str());
   std::locale::global(before);
   ASSERT_TRUE(written && read);
-  EXPECT_EQ(text_of(folder / "german.wrl"), text_of(folder / "classic.wrl"));
+  EXPECT_EQ(read_text(folder / "german.wrl"), read_text(folder / "classic.wrl"));
   expect_same(read->mesh, mesh);
 }
 
@@ -147,7 +149,7 @@ std::string failure_of(const TemporaryFolder& folder, const Mesh& mesh) {
   const auto written = write_model(folder / "model.wrl", mesh, {});
   if (written) return "written";
   EXPECT_EQ(written.error().kind, ErrorKind::output);
-  EXPECT_TRUE(folder.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   const std::string prefix = (folder / "model.wrl").string() + ": ";
   EXPECT_TRUE(written.error().message.starts_with(prefix)) << written.error().message;
   return written.error().message.substr(prefix.size());
@@ -200,7 +202,7 @@ TEST(VrmlWriter, KeepsTheOrderOfItsStates) {
     VrmlWriter writer = create(VrmlGeometry::point_cloud);
     expect_failure(writer.write_faces(triangle.faces), "faces in a point cloud");
   }
-  EXPECT_TRUE(folder.empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   VrmlWriter writer = create(VrmlGeometry::point_cloud);
   ASSERT_TRUE(writer.finish());
   expect_failure(writer.finish(), "cannot write finished in state finished");
@@ -252,11 +254,11 @@ TEST(VrmlWriter, LeavesNothingWhereTheFileCannotGrow) {
 TEST(VrmlWriter, KeepsTheOldFileWhenTheNewOneFails) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_model(folder / "model.wrl", triangle, {}));
-  const std::string before = text_of(folder / "model.wrl");
+  const std::string before = read_text(folder / "model.wrl");
   Mesh broken = triangle;
   broken.faces[0][0] = 3;
   EXPECT_FALSE(write_model(folder / "model.wrl", broken, {}));
-  EXPECT_EQ(text_of(folder / "model.wrl"), before);
+  EXPECT_EQ(read_text(folder / "model.wrl"), before);
 }
 
 }  // namespace

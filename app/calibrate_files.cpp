@@ -1,0 +1,107 @@
+#include "app/calibrate_files.hpp"
+
+#include "app/calibration_fit.hpp"
+#include "pipeline/calibration/calibration_file.hpp"
+#include "pipeline/calibration/plots.hpp"
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <system_error>
+
+namespace bodyscan {
+namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+std::vector<std::filesystem::path> outputs_of(const CalibrateOptions& options) {
+  std::vector<std::filesystem::path> outputs{options.output};
+  if (options.report) outputs.push_back(*options.report);
+  return outputs;
+}
+
+Expected<std::optional<Calibration>> known_lenses(const CalibrateOptions& options,
+                                                  const CalibrationSession& session) {
+  if (!options.keep_intrinsics) return std::nullopt;
+  const Expected<Calibration> known = read_calibration(*options.keep_intrinsics);
+  if (!known) return tl::unexpected(known.error());
+  const Expected<void> fits = check_fit(*known, *options.keep_intrinsics,
+                                        {options.session, session.size(), session.manifest().projector});
+  if (!fits) return tl::unexpected(fits.error());
+  return *known;
+}
+
+// A folder that can be written into once it is there.
+Expected<void> check_folder(const std::filesystem::path& folder) {
+  std::error_code code;
+  if (std::filesystem::exists(folder, code) && !std::filesystem::is_directory(folder, code))
+    return output_error(folder.string() + ": is no folder");
+  return {};
+}
+
+}  // namespace
+
+Expected<CalibrateInputs> open_inputs(const CalibrateOptions& options) {
+  const std::vector<std::filesystem::path> outputs = outputs_of(options);
+  if (Expected<void> distinct = check_distinct(outputs, std::array{options.session / "session.json"});
+      !distinct)
+    return tl::unexpected(distinct.error());
+  Expected<CalibrationSession> session = CalibrationSession::open(options.session);
+  if (!session) return tl::unexpected(session.error());
+  if (Expected<void> kept = check_distinct(outputs, session->files()); !kept)
+    return tl::unexpected(kept.error());
+  const auto known = known_lenses(options, *session);
+  if (!known) return tl::unexpected(known.error());
+  return CalibrateInputs{std::move(*session), *known};
+}
+
+Expected<CalibrateOutputs> CalibrateOutputs::open(const CalibrateOptions& options) {
+  if (options.plots)
+    if (Expected<void> folder = check_folder(*options.plots); !folder) return tl::unexpected(folder.error());
+  Expected<AtomicFile> calibration = AtomicFile::create(options.output);
+  if (!calibration) return tl::unexpected(calibration.error());
+  Expected<OptionalOutput> report = OptionalOutput::create(options.report);
+  if (!report) return tl::unexpected(report.error());
+  CalibrateOutputs outputs(std::move(*calibration));
+  outputs.report_ = std::move(*report);
+  outputs.plots_folder_ = options.plots;
+  return outputs;
+}
+
+Expected<void> CalibrateOutputs::draw_plots(const CalibrationResult& result, const PrintedBoard& board) {
+  if (!plots_folder_) return {};
+  std::error_code code;
+  std::filesystem::create_directories(*plots_folder_, code);
+  if (code) return output_error(plots_folder_->string() + ": " + code.message());
+  for (const Plot& plot : calibration_plots(result.report, result.calibration, board)) {
+    Expected<AtomicFile> file = AtomicFile::create(*plots_folder_ / plot.file_name);
+    if (!file) return tl::unexpected(file.error());
+    if (Expected<void> written = file->write(plot.svg); !written) return written;
+    plots_.push_back(std::move(*file));
+  }
+  return {};
+}
+
+Expected<void> CalibrateOutputs::write(const CalibrateOutcome& outcome, const PrintedBoard& board) {
+  const auto& [calibration, report] = outcome.result;
+  const CalibrationNotes notes{utc_now(), report.camera_rms_px, report.projector_rms_px, report.joint_rms_px};
+  return calibration_text(calibration, notes)
+      .and_then([&](const std::string& text) { return calibration_.write(text); })
+      .and_then([&] { return report_.write(to_json(report, calibration, outcome.run)); })
+      .and_then([&] { return draw_plots(outcome.result, board); });
+}
+
+Expected<void> CalibrateOutputs::commit() {
+  for (AtomicFile& plot : plots_)
+    if (Expected<void> committed = plot.commit(Durability::process); !committed) return committed;
+  return report_.commit().and_then([&] { return calibration_.commit(Durability::power_cut); });
+}
+
+}  // namespace bodyscan
