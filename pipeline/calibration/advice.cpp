@@ -21,10 +21,12 @@ using Eigen::Vector3d;
 constexpr double degree = std::numbers::pi / 180;
 constexpr double few_tilts_degrees = 15;  // largest angle between two boards
 constexpr double one_distance = 0.1;      // largest over smallest, less one
-constexpr double little_coverage = 0.5;   // of the picture's width or height
-constexpr double poor_focal = 0.003;      // relative
-constexpr double worth_while = 0.7;       // of the uncertainty left by one more pose
-constexpr double tilt = 30;               // degrees, of suggested poses
+constexpr double nearly_parallel_degrees = 8;
+constexpr double same_place = 0.15;      // see distance_between
+constexpr double little_coverage = 0.5;  // of the picture's width or height
+constexpr double poor_focal = 0.003;     // relative
+constexpr double worth_while = 0.7;      // of the uncertainty left by one more pose
+constexpr double tilt = 30;              // degrees, of suggested poses
 
 std::string text(const char* format, double value) {
   char buffer[64];
@@ -34,6 +36,22 @@ std::string text(const char* format, double value) {
 
 Vector3d middle_of(const PrintedBoard& board) {
   return {board.square_mm * (board.columns - 1) / 2, board.square_mm * (board.rows - 1) / 2, 0};
+}
+
+// Of two boards' normals, degrees.
+double angle_between(const RigidTransform& one, const RigidTransform& other) {
+  return std::acos(std::clamp(one.rotation.col(2).dot(other.rotation.col(2)), -1.0, 1.0)) / degree;
+}
+
+// Root mean square of how far the board's outermost corners lie apart, as a share of its diagonal.
+double distance_between(const PrintedBoard& board, const RigidTransform& one, const RigidTransform& other) {
+  const Vector3d middle = middle_of(board);
+  double squares = 0;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(2, 0), std::pair(0, 2), std::pair(2, 2)}) {
+    const Vector3d corner(x * middle.x(), y * middle.y(), 0);
+    squares += (one * corner - other * corner).squaredNorm() / 4;
+  }
+  return std::sqrt(squares) / (2 * middle.norm());
 }
 
 // Largest angle between the used boards' normals, degrees, and distances, mm.
@@ -53,8 +71,7 @@ Spread spread_of(const AdjustmentProblem& problem, const Adjustment& fit) {
     spread.farthest = std::max(spread.farthest, distance);
     for (std::size_t k = 0; k < i; ++k) {
       if (!problem.used[k]) continue;
-      const double cosine = one.rotation.col(2).dot(fit.rig.camera_from_board[k].rotation.col(2));
-      spread.angle = std::max(spread.angle, std::acos(std::clamp(cosine, -1.0, 1.0)) / degree);
+      spread.angle = std::max(spread.angle, angle_between(one, fit.rig.camera_from_board[k]));
     }
   }
   return spread;
@@ -211,6 +228,23 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustme
                     ": focal lengths and baseline, known to " + text("%.2g %%", 100 * before) +
                     " together, would be known to " + text("%.2g %%", 100 * best));
   return lines;
+}
+
+std::vector<std::string> name_repeated(const AdjustmentProblem& problem,
+                                       const std::vector<RigidTransform>& camera_from_board) {
+  std::vector<std::string> notes(problem.poses.size());
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    for (std::size_t k = 0; k < i && problem.used[i] && notes[i].empty(); ++k) {
+      if (!problem.used[k] || !notes[k].empty()) continue;
+      const double angle = angle_between(camera_from_board[i], camera_from_board[k]);
+      if (angle > nearly_parallel_degrees ||
+          distance_between(problem.board, camera_from_board[i], camera_from_board[k]) > same_place)
+        continue;
+      notes[i] = "nearly parallel to " + problem.poses[k].name + text(" (%.1f degrees)", angle) +
+                 " and at the same place: adds nothing new";
+    }
+  }
+  return notes;
 }
 
 }  // namespace bodyscan

@@ -12,4 +12,8 @@ namespace bodyscan {
 // known best.
 std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustment& fit);
 
+// For every pose a note if its board was held as in a pose before it; else nothing.
+std::vector<std::string> name_repeated(const AdjustmentProblem& problem,
+                                       const std::vector<RigidTransform>& camera_from_board);
+
 }  // namespace bodyscan

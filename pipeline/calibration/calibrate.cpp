@@ -22,6 +22,7 @@ constexpr int fewest_poses = 3;
 constexpr double max_focal_uncertainty = 0.1;  // relative: beyond, the poses tell nothing
 constexpr double blur_ratio = 2.5;             // times the poses' median: a blurred picture
 constexpr double min_blur_px = 2;
+constexpr double noteworthy_share = 0.1;  // of a pose's corners left out
 constexpr double degree = std::numbers::pi / 180;
 
 std::string percent(double share) {
@@ -122,7 +123,8 @@ void report_pose(const AdjustmentProblem& problem, const Adjustment& fit, std::s
   report.camera_rms_px = own_camera.value();
   report.projector_rms_px = own_projector.value();
   const std::size_t left_out = residuals.size() - own_camera.count - own_projector.count;
-  if (report.used && left_out > 0)
+  if (report.used && report.reason.empty() &&
+      static_cast<double>(left_out) > noteworthy_share * static_cast<double>(residuals.size()))
     report.reason = std::to_string(left_out) + " of " + std::to_string(residuals.size()) +
                     " corners do not fit and were left out";
 }
@@ -184,13 +186,14 @@ void report_leave_one_out(const AdjustmentProblem& problem, const Adjustment& fi
 CalibrationReport report_of(const AdjustmentProblem& problem, const Adjustment& fit,
                             const std::vector<std::string>& reasons) {
   CalibrationReport report;
+  const std::vector<std::string> repeated = name_repeated(problem, fit.rig.camera_from_board);
   Rms camera;
   Rms projector;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     PoseReport pose;
     pose.name = problem.poses[i].name;
     pose.used = problem.used[i];
-    pose.reason = reasons[i];
+    pose.reason = pose.used ? repeated[i] : reasons[i];
     if (!problem.poses[i].in_camera.empty()) report_pose(problem, fit, i, pose, camera, projector);
     report.poses.push_back(std::move(pose));
   }
