@@ -74,7 +74,7 @@ void add_board_command(CLI::App& app, Action& action) {
       ->check(corners);
   const auto is_side = [](const std::string& text) {
     double mm = 0;
-    return CLI::detail::lexical_cast(text, mm) && mm >= 0.1 && mm < max_square_mm;
+    return CLI::detail::lexical_cast(text, mm) && mm >= min_square_mm && mm < max_square_mm;
   };
   command.add_option("--square-mm", options->board.square_mm, "Side of a square (mm)")
       ->required()

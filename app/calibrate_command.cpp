@@ -1,34 +1,64 @@
 #include "app/calibrate_session.hpp"
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "pipeline/base/number_text.hpp"
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
 namespace bodyscan {
 namespace {
 
-std::string line(const char* format, auto... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
+constexpr double good = 0.001;  // relative, of focal lengths and baseline
+constexpr double usable = 0.003;
+
+std::string px(double value) {
+  return fixed_text(value, 3) + " px";
+}
+
+std::string percent(double value) {
+  return (value > 0 ? "+" : "") + fixed_text(value, 3) + " %";
+}
+
+// Of focal lengths and baseline together; nothing where lenses were kept.
+std::optional<double> relative_uncertainty(const CalibrationReport& report) {
+  double sum = 0;
+  for (const char* name : {"camera fx", "projector fx", "baseline"}) {
+    const auto found = std::ranges::find(report.parameters, name, &ParameterReport::name);
+    if (found == report.parameters.end() || !found->estimated || !found->sigma) return std::nullopt;
+    sum += *found->sigma * *found->sigma / (found->value * found->value);
+  }
+  return std::sqrt(sum);
+}
+
+std::string verdict(double uncertainty) {
+  if (uncertainty <= good) return "good";
+  if (uncertainty <= usable) return "usable; more poses would make it good";
+  return "poor; shoot more poses";
 }
 
 std::string summary(const CalibrationReport& report, const std::filesystem::path& output) {
-  std::string text = output.string() + ": " +
-                     line("camera %.3f px, projector %.3f px, together %.3f px\n", report.camera_rms_px,
-                          report.projector_rms_px, report.joint_rms_px);
-  if (report.leave_one_out_camera_px > 0)
-    text += line("a pose left out is predicted to %.3f px in the camera and %.3f px in the projector\n",
-                 report.leave_one_out_camera_px, report.leave_one_out_projector_px);
-  text += line("the board's squares measure %+.3f %% off their printed side, spread %.3f %%\n",
-               report.square_error_percent, report.square_spread_percent);
-  for (const PoseReport& pose : report.poses)
-    if (!pose.used || !pose.reason.empty())
-      text += pose.name + (pose.used ? ": " : " left out: ") + pose.reason + "\n";
+  std::string text = output.string() + ": camera " + px(report.camera_rms_px) + ", projector " +
+                     px(report.projector_rms_px) + ", together " + px(report.joint_rms_px) + " (" +
+                     std::to_string(report.corners_left_out) + " of " + std::to_string(report.corners) +
+                     " corners left out)\n";
+  if (report.leave_one_out_camera_px && report.leave_one_out_projector_px)
+    text += "a pose that is left out: " + px(*report.leave_one_out_camera_px) + " in the camera, " +
+            px(*report.leave_one_out_projector_px) + " in the projector\n";
+  text += "the board's squares come out " + percent(report.square_error_percent) +
+          " off their printed side, spread " + fixed_text(report.square_spread_percent, 3) + " %\n";
+  for (const PoseReport& pose : report.poses) {
+    if (!pose.used) text += pose.name + " left out: " + pose.reason + "\n";
+    for (const std::string& note : pose.notes) text += pose.name + ": " + note + "\n";
+  }
   for (const std::string& advice : report.advice) text += advice + "\n";
+  if (const auto uncertainty = relative_uncertainty(report))
+    text += "focal lengths and baseline are known to " + fixed_text(100 * *uncertainty, 3) +
+            " %: " + verdict(*uncertainty) + "\n";
   return text;
 }
 

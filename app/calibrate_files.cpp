@@ -27,15 +27,17 @@ std::vector<std::filesystem::path> outputs_of(const CalibrateOptions& options) {
   return outputs;
 }
 
-Expected<std::optional<Calibration>> known_lenses(const CalibrateOptions& options,
-                                                  const CalibrationSession& session) {
+Expected<std::optional<KeptCalibration>> kept_calibration(const CalibrateOptions& options,
+                                                          const CalibrationSession& session) {
   if (!options.keep_intrinsics) return std::nullopt;
   const Expected<Calibration> known = read_calibration(*options.keep_intrinsics);
   if (!known) return tl::unexpected(known.error());
+  const Expected<CalibrationNotes> notes = read_calibration_notes(*options.keep_intrinsics);
+  if (!notes) return tl::unexpected(notes.error());
   const Expected<void> fits = check_fit(*known, *options.keep_intrinsics,
                                         {options.session, session.size(), session.manifest().projector});
   if (!fits) return tl::unexpected(fits.error());
-  return *known;
+  return KeptCalibration{*known, notes->camera_rms_px.value_or(0), notes->projector_rms_px.value_or(0)};
 }
 
 // A folder that can be written into once it is there.
@@ -55,11 +57,16 @@ Expected<CalibrateInputs> open_inputs(const CalibrateOptions& options) {
     return tl::unexpected(distinct.error());
   Expected<CalibrationSession> session = CalibrationSession::open(options.session);
   if (!session) return tl::unexpected(session.error());
-  if (Expected<void> kept = check_distinct(outputs, session->files()); !kept)
-    return tl::unexpected(kept.error());
-  const auto known = known_lenses(options, *session);
-  if (!known) return tl::unexpected(known.error());
-  return CalibrateInputs{std::move(*session), *known};
+  if (Expected<void> distinct = check_distinct(outputs, session->files()); !distinct)
+    return tl::unexpected(distinct.error());
+  if (options.report && options.keep_intrinsics)
+    if (Expected<void> distinct =
+            check_distinct(std::array{*options.report}, std::array{*options.keep_intrinsics});
+        !distinct)
+      return tl::unexpected(distinct.error());
+  const auto kept = kept_calibration(options, *session);
+  if (!kept) return tl::unexpected(kept.error());
+  return CalibrateInputs{std::move(*session), *kept};
 }
 
 Expected<CalibrateOutputs> CalibrateOutputs::open(const CalibrateOptions& options) {

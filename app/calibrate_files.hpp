@@ -13,7 +13,7 @@ namespace bodyscan {
 // What a calibration reads; the lenses that are kept belong to the session's devices.
 struct CalibrateInputs {
   CalibrationSession session;
-  std::optional<Calibration> known;
+  std::optional<KeptCalibration> kept;
 };
 
 // Errors: input that is missing, damaged or of other devices; usage, where a result is named like another one

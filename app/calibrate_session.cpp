@@ -23,8 +23,8 @@ Expected<CalibrateOutcome> calibrate_session(const CalibrateOptions& options, Pr
 
   progress.show("calibrating");
   const SessionManifest& manifest = inputs->session.manifest();
-  auto result = calibrate({manifest.board, inputs->session.size(), manifest.projector, std::move(*poses),
-                           inputs->known})
+  auto result = calibrate({manifest.board, inputs->session.size(), manifest.projector,
+                           manifest.projected_board, std::move(*poses), inputs->kept})
                     .map_error(in_session);
   if (!result) return tl::unexpected(result.error());
   clock.end_stage("calibrate");

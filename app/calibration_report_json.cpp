@@ -35,10 +35,15 @@ Json json_of(const Calibration& calibration) {
           {"baseline_mm", calibration.projector_from_camera.translation.norm()}};
 }
 
+Json json_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 Json json_of(const ParameterReport& parameter) {
   return {{"name", parameter.name},
           {"value", parameter.value},
-          {"sigma", parameter.sigma ? Json(*parameter.sigma) : Json(nullptr)}};
+          {"sigma", json_of(parameter.sigma)},
+          {"estimated", parameter.estimated}};
 }
 
 Json json_of(const std::vector<CornerResidual>& corners) {
@@ -49,15 +54,17 @@ Json json_of(const std::vector<CornerResidual>& corners) {
 }
 
 Json json_of(const PoseReport& pose) {
+  const auto if_located = [&](Json value) { return pose.located ? std::move(value) : Json(nullptr); };
   return {{"name", pose.name},
           {"used", pose.used},
           {"reason", pose.reason},
-          {"camera_rms_px", pose.camera_rms_px},
-          {"projector_rms_px", pose.projector_rms_px},
-          {"distance_mm", pose.distance_mm},
-          {"tilt_degrees", pose.tilt_degrees},
-          {"plane_rms_mm", pose.plane_rms_mm},
-          {"camera_from_board", json_of(pose.camera_from_board)},
+          {"notes", Json(pose.notes)},
+          {"camera_rms_px", if_located(pose.camera_rms_px)},
+          {"projector_rms_px", if_located(pose.projector_rms_px)},
+          {"distance_mm", if_located(pose.distance_mm)},
+          {"tilt_degrees", if_located(pose.tilt_degrees)},
+          {"plane_rms_mm", if_located(pose.plane_rms_mm)},
+          {"camera_from_board", if_located(json_of(pose.camera_from_board))},
           {"camera", json_of(pose.camera)},
           {"projector", json_of(pose.projector)}};
 }
@@ -79,11 +86,15 @@ std::string to_json(const CalibrationReport& report, const Calibration& calibrat
       {"camera_rms_px", report.camera_rms_px},
       {"projector_rms_px", report.projector_rms_px},
       {"joint_rms_px", report.joint_rms_px},
-      {"leave_one_out_camera_px", report.leave_one_out_camera_px},
-      {"leave_one_out_projector_px", report.leave_one_out_projector_px},
+      {"corners", report.corners},
+      {"corners_left_out", report.corners_left_out},
+      {"all_camera_rms_px", report.all_camera_rms_px},
+      {"all_projector_rms_px", report.all_projector_rms_px},
+      {"leave_one_out_camera_px", json_of(report.leave_one_out_camera_px)},
+      {"leave_one_out_projector_px", json_of(report.leave_one_out_projector_px)},
       {"square_error_percent", report.square_error_percent},
       {"square_spread_percent", report.square_spread_percent},
-      {"leave_one_out_square_error_percent", report.leave_one_out_square_error_percent},
+      {"leave_one_out_square_error_percent", json_of(report.leave_one_out_square_error_percent)},
       {"advice", Json(report.advice)},
       {"calibration", json_of(calibration)},
       {"parameters", list_of(report.parameters)},

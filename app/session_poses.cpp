@@ -2,13 +2,13 @@
 
 #include "app/interrupt.hpp"
 #include "hal/replay/frame_reader.hpp"
+#include "pipeline/base/number_text.hpp"
 #include "pipeline/calibration/corner_refinement.hpp"
 #include "pipeline/calibration/find_board.hpp"
 #include "pipeline/calibration/gray_code_corners.hpp"
 #include "pipeline/decode/decoder.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace bodyscan {
 namespace {
@@ -24,9 +24,7 @@ std::vector<SeenCorner> seen_corners(const ChessboardCorners& board) {
 }
 
 std::string moved_text(double shift_px) {
-  char text[96];
-  std::snprintf(text, sizeof text, "the board moved by %.1f px between the two pictures", shift_px);
-  return text;
+  return "the board moved by " + fixed_text(shift_px, 1) + " px between the two pictures";
 }
 
 Expected<CalibrationPose> look_at_pair(const CalibrationSession& session, int index) {
@@ -50,9 +48,9 @@ Expected<CalibrationPose> look_at_pair(const CalibrationSession& session, int in
   }
   for (const SeenCorner& seen : seen_corners(light->corners))
     pose.observation.projected.push_back({shown.corner_px(seen.corner), seen.px});
-  const double shift = board_shift_px(*projected, *board);
-  if (shift > std::max(max_shift_px, max_shift_squares * square_px(board->corners)))
-    pose.failure = moved_text(shift);
+  const std::optional<double> shift = board_shift_px(*projected, *board);
+  if (shift.value_or(0) > std::max(max_shift_px, max_shift_squares * square_px(board->corners)))
+    pose.failure = moved_text(*shift);
   return pose;
 }
 

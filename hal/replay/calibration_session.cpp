@@ -97,19 +97,18 @@ std::vector<std::filesystem::path> CalibrationSession::files() const {
 }
 
 Expected<Luma> CalibrationSession::load_printed(int pose) const {
-  return load(pose_files(pose), *pose_files(pose).printed);
+  return load(*pose_files(pose).printed);
 }
 
 Expected<Luma> CalibrationSession::load_projected(int pose) const {
-  return load(pose_files(pose), *pose_files(pose).projected);
+  return load(*pose_files(pose).projected);
 }
 
-Expected<Luma> CalibrationSession::load(const PoseFiles& pose, const std::string& file) const {
+Expected<Luma> CalibrationSession::load(const std::string& file) const {
   const std::filesystem::path path = folder_ / file;
   Expected<Luma> luma = load_luma(path, limits_);
-  if (!luma) return tl::unexpected(luma.error().within(pose.name));
-  if (Expected<void> same = check_size(path, size_of(*luma)); !same)
-    return tl::unexpected(same.error().within(pose.name));
+  if (!luma) return luma;
+  if (Expected<void> same = check_size(path, size_of(*luma)); !same) return tl::unexpected(same.error());
   return luma;
 }
 

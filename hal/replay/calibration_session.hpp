@@ -11,7 +11,7 @@ namespace bodyscan {
 
 // A calibration session on disk, opened: every picture that its manifest names is there, all declare the same
 // size, and captures have rows and columns of the session's projector. Immutable; all functions may be called
-// from any thread. Messages about a pose's files name the pose: "pose 4: session/board.jpg: No such file or
+// from any thread. Messages of `open` name pose and file: "pose 4: session/board.jpg: No such file or
 // directory".
 class CalibrationSession {
  public:
@@ -41,7 +41,7 @@ class CalibrationSession {
   [[nodiscard]] Expected<void> open_capture(const PoseFiles& pose);
   [[nodiscard]] Expected<void> check_size(const std::filesystem::path& path, Size size) const;
   [[nodiscard]] Expected<void> admit(const std::filesystem::path& path, Size size);
-  [[nodiscard]] Expected<Luma> load(const PoseFiles& pose, const std::string& file) const;
+  [[nodiscard]] Expected<Luma> load(const std::string& file) const;
   [[nodiscard]] const PoseFiles& pose_files(int pose) const {
     return manifest_.poses[static_cast<std::size_t>(pose)];
   }

@@ -19,7 +19,14 @@ Expected<int> corners_along(const JsonNode& node) {
 
 Expected<double> square_mm_of(const JsonNode& node) {
   return json_positive(node).and_then([&](double side) -> Expected<double> {
-    if (side >= max_square_mm) return node.error("must be under 1000");
+    if (side < min_square_mm || side >= max_square_mm) return node.error("must be 0.1 to 1000");
+    return side;
+  });
+}
+
+Expected<double> square_px_of(const JsonNode& node) {
+  return json_positive(node).and_then([&](double side) -> Expected<double> {
+    if (side < min_square_px) return node.error("must be 2 or more");
     return side;
   });
 }
@@ -65,7 +72,7 @@ Expected<ProjectedBoard> projected_board(const JsonNode& node, Size projector) {
   const Expected<Eigen::Vector2d> first = required(node, "first_corner_px", point_of);
   if (!first) return tl::unexpected(first.error());
   board->first_corner_px = *first;
-  const Expected<double> side = required(node, "square_px", json_positive);
+  const Expected<double> side = required(node, "square_px", square_px_of);
   if (!side) return tl::unexpected(side.error());
   board->square_px = *side;
   if (!is_inside(board->corner_px(0), projector) ||
@@ -101,6 +108,15 @@ Expected<PoseFiles> pose_of(const JsonNode& node, std::size_t index) {
   return pose;
 }
 
+// The same pictures again tell nothing, but would count.
+Expected<void> check_other(const JsonNode& node, const PoseFiles& pose, const std::vector<PoseFiles>& before) {
+  const auto same = std::ranges::find_if(before, [&](const PoseFiles& other) {
+    return other.printed == pose.printed && other.projected == pose.projected && other.capture == pose.capture;
+  });
+  if (same == before.end()) return {};
+  return node.error("the same as poses[" + std::to_string(same - before.begin()) + "]");
+}
+
 Expected<std::vector<PoseFiles>> poses_of(const JsonNode& node) {
   if (!node.value->is_array()) return node.error("not an array");
   const std::size_t count = node.value->size();
@@ -108,8 +124,11 @@ Expected<std::vector<PoseFiles>> poses_of(const JsonNode& node) {
     return node.error("there must be 1 to " + std::to_string(max_poses) + ", not " + std::to_string(count));
   std::vector<PoseFiles> poses;
   for (std::size_t i = 0; i < count; ++i) {
-    Expected<PoseFiles> pose = pose_of({&(*node.value)[i], node.place + "[" + std::to_string(i) + "]"}, i);
+    const JsonNode item{&(*node.value)[i], node.place + "[" + std::to_string(i) + "]"};
+    Expected<PoseFiles> pose = pose_of(item, i);
     if (!pose) return tl::unexpected(pose.error());
+    if (Expected<void> other = check_other(item, *pose, poses); !other)
+      return tl::unexpected(other.error());
     poses.push_back(std::move(*pose));
   }
   return poses;

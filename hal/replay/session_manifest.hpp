@@ -12,8 +12,8 @@
 
 namespace bodyscan {
 
-// What was photographed of one pose of the board: a pair of pictures or a capture folder, never both. Plain
-// names inside the session folder.
+// What was photographed of one pose of the board: a pair of pictures or a capture folder, never both, and not
+// the same as of another pose. Plain names inside the session folder.
 struct PoseFiles {
   std::string name;                      // "pose 4", counted from 0
   std::optional<std::string> printed;    // of a pair: the printed board alone

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -34,10 +35,6 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-Vector3d middle_of(const PrintedBoard& board) {
-  return {board.square_mm * (board.columns - 1) / 2, board.square_mm * (board.rows - 1) / 2, 0};
-}
-
 // Of two boards' normals, degrees.
 double angle_between(const RigidTransform& one, const RigidTransform& other) {
   return std::acos(std::clamp(one.rotation.col(2).dot(other.rotation.col(2)), -1.0, 1.0)) / degree;
@@ -45,7 +42,7 @@ double angle_between(const RigidTransform& one, const RigidTransform& other) {
 
 // Root mean square of how far the board's outermost corners lie apart, as a share of its diagonal.
 double distance_between(const PrintedBoard& board, const RigidTransform& one, const RigidTransform& other) {
-  const Vector3d middle = middle_of(board);
+  const Vector3d middle = board.middle_mm();
   double squares = 0;
   for (const auto& [x, y] : {std::pair(0, 0), std::pair(2, 0), std::pair(0, 2), std::pair(2, 2)}) {
     const Vector3d corner(x * middle.x(), y * middle.y(), 0);
@@ -66,7 +63,7 @@ Spread spread_of(const AdjustmentProblem& problem, const Adjustment& fit) {
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     if (!problem.used[i]) continue;
     const RigidTransform& one = fit.rig.camera_from_board[i];
-    const double distance = (one * middle_of(problem.board)).norm();
+    const double distance = (one * problem.board.middle_mm()).norm();
     spread.nearest = std::min(spread.nearest, distance);
     spread.farthest = std::max(spread.farthest, distance);
     for (std::size_t k = 0; k < i; ++k) {
@@ -91,12 +88,6 @@ Vector2d coverage_of(const AdjustmentProblem& problem, Size camera) {
   return (high - low).cwiseQuotient(Vector2d(camera.width, camera.height));
 }
 
-Eigen::Index position_of(const ParameterMask& mask, int parameter) {
-  Eigen::Index before = 0;
-  for (int i = 0; i < parameter; ++i) before += mask[static_cast<std::size_t>(i)] ? 1 : 0;
-  return before;
-}
-
 // Relative variances of both focal lengths and the baseline under an information matrix.
 double uncertainty(const AdjustmentProblem& problem, const Adjustment& fit, const MatrixXd& information) {
   Adjustment with = fit;
@@ -106,11 +97,11 @@ double uncertainty(const AdjustmentProblem& problem, const Adjustment& fit, cons
   double sum = 0;
   for (const int parameter :
        {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
-    const Eigen::Index at = position_of(problem.free, parameter);
+    const int at = position_in(problem.free, parameter);
     const double value = parameter_value(calibration, parameter);
     sum += covariance(at, at) / (value * value);
   }
-  const Eigen::Index translation = position_of(problem.free, extrinsic_parameter(3));
+  const int translation = position_in(problem.free, extrinsic_parameter(3));
   const Vector3d direction = calibration.projector_from_camera.translation.normalized();
   sum += direction.dot(covariance.block<3, 3>(translation, translation) * direction) /
          calibration.projector_from_camera.translation.squaredNorm();
@@ -146,7 +137,7 @@ std::vector<Suggestion> suggestions(const AdjustmentProblem& problem, const Adju
                           camera.size.height * (0.5 + place.value.y()));
         RigidTransform pose;
         pose.rotation = rotation_of(degree * Vector3d(leaning.value.x(), leaning.value.y(), 0));
-        pose.translation = camera.ray(px) * distance - pose.rotation * middle_of(problem.board);
+        pose.translation = camera.ray(px) * distance - pose.rotation * problem.board.middle_mm();
         result.push_back({std::string("the board ") + place.words + ", " + leaning.words + ", " +
                               text("%.2f m away", distance / 1000),
                           pose});
@@ -178,19 +169,28 @@ std::optional<PoseObservation> view_of(const Calibration& calibration, const Pri
   return pose;
 }
 
-void name_fixed(const AdjustmentProblem& problem, std::vector<std::string>& lines) {
+// Lens parameters that were never free.
+std::string not_tried(const AdjustmentProblem& problem, const SupportedFit& supported) {
   std::string names;
   for (int p = 0; p < 2 * lens_parameters; ++p) {
-    if (problem.free[static_cast<std::size_t>(p)]) continue;
-    names += (names.empty() ? "" : ", ") + parameter_name(p);
+    const bool fixed = std::ranges::count(supported.fixed, p, &FixedParameter::parameter) > 0;
+    if (!problem.free[static_cast<std::size_t>(p)] && !fixed)
+      names += (names.empty() ? "" : ", ") + parameter_name(p);
   }
-  if (!names.empty())
-    lines.push_back("not told from their defaults by these poses, and left there: " + names);
+  return names;
+}
+
+// "camera k3 (+- 0.2)"
+std::string with_sigma(const FixedParameter& fixed) {
+  const bool pixels = std::ranges::any_of(std::array{LensParameter::cx, LensParameter::cy}, [&](auto which) {
+    return fixed.parameter % lens_parameters == static_cast<int>(which);
+  });
+  return parameter_name(fixed.parameter) + text(pixels ? " (+- %.2g px)" : " (+- %.1g)", fixed.sigma);
 }
 
 }  // namespace
 
-std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustment& fit) {
+std::vector<std::string> advise_on_poses(const AdjustmentProblem& problem, const Adjustment& fit) {
   std::vector<std::string> lines;
   const Spread spread = spread_of(problem, fit);
   if (spread.angle < few_tilts_degrees)
@@ -199,16 +199,26 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Adjustme
         ": focal lengths, principal points and distances cannot be told apart well; tilt the board by 20 to "
         "40 degrees both ways");
   if (spread.farthest < (1 + one_distance) * spread.nearest)
-    lines.push_back("all boards are " + text("%.2f", spread.nearest / 1000) + " to " +
-                    text("%.2f m", spread.farthest / 1000) + " away: hold some nearer, some farther");
+    lines.push_back("all boards are about equally far away: hold some nearer, some farther");
   const Vector2d coverage = coverage_of(problem, fit.rig.calibration.camera.size);
   if (coverage.minCoeff() < little_coverage)
     lines.push_back("the corners cover " + text("%.0f %% of the picture's width and ", 100 * coverage.x()) +
                     text("%.0f %% of its height", 100 * coverage.y()) +
                     ": beyond, the lens distortion is a guess; hold the board towards the borders too");
-  name_fixed(problem, lines);
-  if (!problem.free[static_cast<std::size_t>(camera_parameter(LensParameter::focal))]) return lines;
+  return lines;
+}
 
+std::vector<std::string> advise(const AdjustmentProblem& problem, const SupportedFit& supported) {
+  const Adjustment& fit = supported.fit;
+  std::vector<std::string> lines = advise_on_poses(problem, fit);
+  std::string names;
+  for (const FixedParameter& fixed : supported.fixed)
+    names += (names.empty() ? "" : ", ") + with_sigma(fixed);
+  if (const std::string untried = not_tried(problem, supported); !untried.empty())
+    lines.push_back("not estimated from fewer than five poses: " + untried);
+  if (!names.empty())
+    lines.push_back("left at their usual values, from which these poses cannot tell them: " + names);
+  const Spread spread = spread_of(problem, fit);
   const double before = uncertainty(problem, fit, fit.information);
   double best = before;
   std::string words;

@@ -16,6 +16,10 @@ struct PrintedBoard {
   [[nodiscard]] Eigen::Vector2d corner_mm(int index) const {
     return square_mm * Eigen::Vector2d(index % columns, index / columns);
   }
+  // Between the outermost corners, board frame.
+  [[nodiscard]] Eigen::Vector3d middle_mm() const {
+    return square_mm / 2 * Eigen::Vector3d(columns - 1, rows - 1, 0);
+  }
 };
 
 // A chessboard in the projector's picture.
@@ -28,6 +32,10 @@ struct ProjectedBoard {
   [[nodiscard]] int corner_count() const { return columns * rows; }
   [[nodiscard]] Eigen::Vector2d corner_px(int index) const {
     return first_corner_px + square_px * Eigen::Vector2d(index % columns, index / columns);
+  }
+  // Of the same board counted from its opposite corner.
+  [[nodiscard]] Eigen::Vector2d half_turned(const Eigen::Vector2d& px) const {
+    return corner_px(0) + corner_px(corner_count() - 1) - px;
   }
 };
 

@@ -1,5 +1,6 @@
 #include "pipeline/calibration/bundle_adjustment.hpp"
 
+#include "pipeline/base/median.hpp"
 #include "pipeline/base/parallel.hpp"
 
 #include <algorithm>
@@ -34,7 +35,6 @@ std::vector<int> free_parameters(const ParameterMask& mask) {
 struct PoseEquations {
   MatrixXd normal;
   VectorXd right;
-  double cost = 0;
 };
 
 double variance_of(const Adjustment& state, const PoseObservation& pose, std::size_t residual) {
@@ -107,7 +107,6 @@ PoseEquations equations_of(const AdjustmentProblem& problem, const Adjustment& s
     const auto at = 2 * static_cast<Eigen::Index>(k);
     weights.segment<2>(at).setConstant(weight);
     values.segment<2>(at) = residuals[k];
-    equations.cost += weight * residuals[k].squaredNorm();
   }
   equations.normal = jacobian.transpose() * weights.asDiagonal() * jacobian;
   equations.right = -jacobian.transpose() * (weights.asDiagonal() * values);
@@ -189,6 +188,14 @@ RigEstimate stepped(const AdjustmentProblem& problem, const RigEstimate& rig, co
   return next;
 }
 
+// Information about the shared parameters when the board's own are not known.
+MatrixXd marginalised(const MatrixXd& all, Eigen::Index shared) {
+  return all.topLeftCorner(shared, shared) - all.topRightCorner(shared, pose_parameters) *
+                                                 all.bottomRightCorner(pose_parameters, pose_parameters)
+                                                     .ldlt()
+                                                     .solve(all.bottomLeftCorner(pose_parameters, shared));
+}
+
 // Converges with the weights as they are.
 void converge(const AdjustmentProblem& problem, Adjustment& state, const std::vector<int>& free) {
   double damping = 1e-3;
@@ -213,16 +220,13 @@ void converge(const AdjustmentProblem& problem, Adjustment& state, const std::ve
     }
     if (!better || fall < converged * cost) break;
   }
-  state.cost = cost;
 }
 
 // Standard deviation of one coordinate from the lengths of two-dimensional residuals: their median is
 // sqrt(2 ln 2) times it.
-double robust_sigma(std::vector<double>& lengths) {
+double robust_sigma(const std::vector<double>& lengths) {
   if (lengths.empty()) return 1;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return std::max(*middle / std::sqrt(2 * std::log(2.0)), min_sigma_px);
+  return std::max(median(lengths) / std::sqrt(2 * std::log(2.0)), min_sigma_px);
 }
 
 // New spreads and weights; whether they moved noticeably.
@@ -262,6 +266,7 @@ Adjustment adjust(const AdjustmentProblem& problem, const RigEstimate& start) {
   state.projector_sigma_px = 1;
   for (const PoseObservation& pose : problem.poses)
     state.weights.emplace_back(camera_count(pose) + projector_count(pose), 1.0);
+  reweigh(problem, state);  // a pose that is far off must not draw the first fit to itself
   for (int round = 0; round < max_rounds; ++round) {
     converge(problem, state, free);
     if (!reweigh(problem, state)) break;
@@ -271,13 +276,10 @@ Adjustment adjust(const AdjustmentProblem& problem, const RigEstimate& start) {
   const auto shared = static_cast<Eigen::Index>(free.size());
   for (const PoseEquations& equations : all_equations(problem, state, free)) {
     if (equations.normal.size() == 0) continue;
-    const MatrixXd& all = equations.normal;
-    state.information += all.topLeftCorner(shared, shared);
-    if (problem.boards_fixed) continue;
-    state.information -= all.topRightCorner(shared, pose_parameters) *
-                         all.bottomRightCorner(pose_parameters, pose_parameters)
-                             .ldlt()
-                             .solve(all.bottomLeftCorner(pose_parameters, shared));
+    if (problem.boards_fixed)
+      state.information += equations.normal.topLeftCorner(shared, shared);
+    else
+      state.information += marginalised(equations.normal, shared);
   }
   return state;
 }
@@ -301,12 +303,8 @@ MatrixXd information_of_pose(const AdjustmentProblem& problem, const Calibration
     const double sigma = camera ? camera_sigma_px : projector_sigma_px;
     weights[i] = 1 / (sigma * sigma);
   }
-  const MatrixXd all = jacobian.transpose() * weights.asDiagonal() * jacobian;
-  const auto shared = static_cast<Eigen::Index>(free.size());
-  return all.topLeftCorner(shared, shared) - all.topRightCorner(shared, pose_parameters) *
-                                                 all.bottomRightCorner(pose_parameters, pose_parameters)
-                                                     .ldlt()
-                                                     .solve(all.bottomLeftCorner(pose_parameters, shared));
+  return marginalised(jacobian.transpose() * weights.asDiagonal() * jacobian,
+                      static_cast<Eigen::Index>(free.size()));
 }
 
 }  // namespace bodyscan

@@ -24,7 +24,6 @@ struct Adjustment {
   ResidualWeights weights;     // relative to 1 / variance
   double camera_sigma_px = 0;  // robust standard deviation of one coordinate
   double projector_sigma_px = 0;
-  double cost = 0;              // weighted sum of squares over the variances
   Eigen::MatrixXd information;  // of the free shared parameters, the board poses marginalised out
 };
 

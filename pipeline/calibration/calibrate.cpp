@@ -1,15 +1,18 @@
 #include "pipeline/calibration/calibrate.hpp"
 
+#include "pipeline/base/median.hpp"
+#include "pipeline/base/number_text.hpp"
 #include "pipeline/calibration/advice.hpp"
+#include "pipeline/calibration/calibration_file.hpp"
+#include "pipeline/calibration/fit_report.hpp"
 #include "pipeline/calibration/initial_guess.hpp"
 #include "pipeline/calibration/parameter_selection.hpp"
 #include "pipeline/calibration/pose_agreement.hpp"
-#include "pipeline/calibration/square_check.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
+#include <limits>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -18,17 +21,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int fewest_poses = 3;
 constexpr double max_focal_uncertainty = 0.1;  // relative: beyond, the poses tell nothing
 constexpr double blur_ratio = 2.5;             // times the poses' median: a blurred picture
 constexpr double min_blur_px = 2;
-constexpr double noteworthy_share = 0.1;  // of a pose's corners left out
-constexpr double degree = std::numbers::pi / 180;
+constexpr double max_kept_camera_px = 1;  // of lenses that still hold, if it is not known how they did before
+constexpr double max_kept_projector_px = 0.5;
+constexpr double kept_ratio = 4;  // times what it was before
+constexpr double patience_px = 30;
 
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
-  return text;
+  return fixed_text(100 * share, 0) + " %";
 }
 
 std::vector<PoseObservation> observations_of(const CalibrationRequest& request) {
@@ -53,13 +55,6 @@ tl::unexpected<Error> too_few(const CalibrationRequest& request, const std::vect
       " there; hold the board up at different tilts, places and distances" + bad_poses(request, reasons));
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Pictures whose edges are far softer than the others'.
 std::vector<std::string> blurred_poses(const CalibrationRequest& request) {
   std::vector<double> blurs;
@@ -70,216 +65,212 @@ std::vector<std::string> blurred_poses(const CalibrationRequest& request) {
   for (const CalibrationPose& pose : request.poses) {
     const bool blurred = pose.failure.empty() && blurs.size() >= fewest_poses &&
                          pose.edge_blur_px > std::max(blur_ratio * usual, min_blur_px);
-    char text[96];
-    std::snprintf(text, sizeof text, "blurred: its edges are %.1f px soft, %.1f px in other poses",
-                  pose.edge_blur_px, usual);
-    reasons.push_back(blurred ? text : "");
+    reasons.push_back(blurred ? "blurred: its edges are " + fixed_text(pose.edge_blur_px, 1) + " px soft, " +
+                                    fixed_text(usual, 1) + " px in other poses"
+                              : "");
   }
   return reasons;
 }
 
-// Root mean square of lengths.
-struct Rms {
-  double squares = 0;
-  std::size_t count = 0;
-  void add(double square) {
-    squares += square;
-    ++count;
+bool has_pairs(const std::vector<PoseObservation>& poses) {
+  return std::ranges::any_of(poses, [](const auto& pose) { return !pose.projected.empty(); });
+}
+
+bool has_captures(const std::vector<PoseObservation>& poses) {
+  return std::ranges::any_of(poses, [](const auto& pose) { return !pose.in_projector.empty(); });
+}
+
+std::vector<PoseObservation> half_turned(std::vector<PoseObservation> poses, const ProjectedBoard& board) {
+  for (PoseObservation& pose : poses)
+    for (Beam& beam : pose.projected) beam.projector_px = board.half_turned(beam.projector_px);
+  return poses;
+}
+
+// What camera and projector disagree by, a corner: no corner counts for more than a limit.
+double disagreement(const CalibrationRequest& request, const std::vector<PoseObservation>& poses,
+                    const std::vector<bool>& used, const RigEstimate& rig) {
+  double sum = 0;
+  double count = 0;
+  std::vector<Vector2d> residuals;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (!used[i]) continue;
+    predict_residuals(rig.calibration, rig.camera_from_board[i], request.board, poses[i], residuals);
+    for (std::size_t k = camera_count(poses[i]); k < residuals.size(); ++k, ++count)
+      sum += std::min(residuals[k].norm(), patience_px);
   }
-  [[nodiscard]] double value() const {
-    return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
-  }
+  return count > 0 ? sum / count : patience_px;
+}
+
+struct Start {
+  std::vector<PoseObservation> poses;  // the projected boards the right way round
+  RigEstimate rig;
 };
 
-void report_pose(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t i, PoseReport& report,
-                 Rms& camera, Rms& projector) {
-  const PoseObservation& pose = problem.poses[i];
-  report.camera_from_board = fit.rig.camera_from_board[i];
-  const Eigen::Vector3d middle(problem.board.square_mm * (problem.board.columns - 1) / 2,
-                               problem.board.square_mm * (problem.board.rows - 1) / 2, 0);
-  report.distance_mm = (report.camera_from_board * middle).norm();
-  report.tilt_degrees = std::acos(std::min(1.0, std::abs(report.camera_from_board.rotation(2, 2)))) / degree;
-  report.plane_rms_mm = triangulate_board(fit.rig.calibration, problem.board, pose).plane_rms_mm;
-  std::vector<Vector2d> residuals;
-  predict_residuals(fit.rig.calibration, report.camera_from_board, problem.board, pose, residuals);
-  Rms own_camera;
-  Rms own_projector;
-  for (std::size_t k = 0; k < residuals.size(); ++k) {
-    const bool in_camera = k < camera_count(pose);
-    const std::size_t own = k - (in_camera ? 0 : camera_count(pose));
-    Vector2d at;
-    if (in_camera)
-      at = pose.in_camera[own].px;
-    else
-      at = own < pose.in_projector.size() ? pose.in_projector[own].px
-                                          : pose.projected[own - pose.in_projector.size()].projector_px;
-    const bool used = report.used && fit.weights[i][k] > 0;
-    (in_camera ? report.camera : report.projector).push_back({at, residuals[k], used});
-    if (!used) continue;
-    const double square = residuals[k].squaredNorm();
-    (in_camera ? own_camera : own_projector).add(square);
-    (in_camera ? camera : projector).add(square);
+Expected<Start> start_whole(const CalibrationRequest& request, std::vector<PoseObservation> poses,
+                            const std::vector<bool>& used) {
+  const auto guess = [&](const std::vector<PoseObservation>& of) {
+    return guess_rig(request.board, of, used, request.camera, request.projector);
+  };
+  Expected<RigEstimate> rig = guess(poses);
+  if (request.projected_board && has_pairs(poses) && has_captures(poses)) {
+    std::vector<PoseObservation> turned = half_turned(poses, *request.projected_board);
+    Expected<RigEstimate> other = guess(turned);
+    if (other &&
+        (!rig || disagreement(request, turned, used, *other) < disagreement(request, poses, used, *rig)))
+      return Start{std::move(turned), std::move(*other)};
   }
-  report.camera_rms_px = own_camera.value();
-  report.projector_rms_px = own_projector.value();
-  const std::size_t left_out = residuals.size() - own_camera.count - own_projector.count;
-  if (report.used && report.reason.empty() &&
-      static_cast<double>(left_out) > noteworthy_share * static_cast<double>(residuals.size()))
-    report.reason = std::to_string(left_out) + " of " + std::to_string(residuals.size()) +
-                    " corners do not fit and were left out";
+  if (!rig) return tl::unexpected(rig.error());
+  return Start{std::move(poses), std::move(*rig)};
 }
 
-std::vector<ParameterReport> report_parameters(const AdjustmentProblem& problem, const Adjustment& fit) {
-  const Eigen::MatrixXd covariance = covariance_of(fit);
-  std::vector<ParameterReport> parameters;
-  const Calibration& calibration = fit.rig.calibration;
-  const Eigen::AngleAxisd turn(calibration.projector_from_camera.rotation);
-  Eigen::Index position = 0;
-  for (int p = 0; p < shared_parameters; ++p) {
-    ParameterReport report{parameter_name(p), parameter_value(calibration, p), {}};
-    const bool rotation = p >= extrinsic_parameter(0) && p < extrinsic_parameter(3);
-    if (rotation) report.value = turn.angle() * turn.axis()[p - extrinsic_parameter(0)] / degree;
-    if (problem.free[static_cast<std::size_t>(p)]) {
-      report.sigma = std::sqrt(std::max(0.0, covariance(position, position))) / (rotation ? degree : 1);
-      ++position;
-    }
-    parameters.push_back(report);
-  }
-  return parameters;
+double turn_between(const RigidTransform& one, const RigidTransform& other) {
+  return Eigen::AngleAxisd(one.rotation.transpose() * other.rotation).angle();
 }
 
-void report_squares(const AdjustmentProblem& problem, const Adjustment& fit, CalibrationReport& report) {
-  std::vector<double> sides;
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    if (!problem.used[i]) continue;
-    const TriangulatedBoard board = triangulate_board(fit.rig.calibration, problem.board, problem.poses[i]);
-    sides.insert(sides.end(), board.sides.begin(), board.sides.end());
+// Every board where the kept camera sees it, the projector where they tell.
+Expected<Start> start_from_kept(const CalibrationRequest& request, std::vector<PoseObservation> poses,
+                                const std::vector<bool>& used) {
+  Start start{std::move(poses), {request.kept->calibration, std::vector<RigidTransform>(used.size())}};
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const auto pose = guess_board(request.board, start.poses[i], start.rig.calibration.camera);
+    if (!pose) return input_error(start.poses[i].name + ": its corners do not determine a plane");
+    start.rig.camera_from_board[i] = *pose;
   }
-  const SideFigures figures = figures_of(sides);
-  report.square_error_percent = figures.error_percent;
-  report.square_spread_percent = figures.spread_percent;
-}
-
-void report_leave_one_out(const AdjustmentProblem& problem, const Adjustment& fit,
-                          CalibrationReport& report) {
-  if (std::ranges::count(problem.used, true) < fewest_poses) return;
-  Rms camera;
-  Rms projector;
-  std::vector<double> sides;
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    if (!problem.used[i]) continue;
-    AdjustmentProblem others = problem;
-    others.used[i] = false;
-    const Adjustment without = adjust(others, fit.rig);
-    const PoseMisfit misfit = misfit_of_pose(problem, without, i);
-    camera.add(misfit.camera_px * misfit.camera_px);
-    projector.add(misfit.projector_px * misfit.projector_px);
-    const TriangulatedBoard board =
-        triangulate_board(without.rig.calibration, problem.board, problem.poses[i]);
-    sides.insert(sides.end(), board.sides.begin(), board.sides.end());
+  const auto place = [&](Start& of) -> Expected<void> {
+    const auto extrinsics = guess_extrinsics(request.board, of.poses, used, of.rig);
+    if (!extrinsics) return tl::unexpected(extrinsics.error());
+    of.rig.calibration.projector_from_camera = *extrinsics;
+    return {};
+  };
+  if (request.projected_board && has_pairs(start.poses)) {
+    Start turned{half_turned(start.poses, *request.projected_board), start.rig};
+    const Expected<void> placed = place(start).and_then([&] { return place(turned); });
+    if (!placed) return tl::unexpected(placed.error());
+    const RigidTransform& kept = request.kept->calibration.projector_from_camera;
+    const auto misfit = [&](const Start& of) {
+      return has_captures(of.poses) ? disagreement(request, of.poses, used, of.rig)
+                                    : turn_between(of.rig.calibration.projector_from_camera, kept);
+    };
+    return misfit(turned) < misfit(start) ? turned : start;
   }
-  report.leave_one_out_camera_px = camera.value();
-  report.leave_one_out_projector_px = projector.value();
-  report.leave_one_out_square_error_percent = figures_of(sides).error_percent;
-}
-
-CalibrationReport report_of(const AdjustmentProblem& problem, const Adjustment& fit,
-                            const std::vector<std::string>& reasons) {
-  CalibrationReport report;
-  const std::vector<std::string> repeated = name_repeated(problem, fit.rig.camera_from_board);
-  Rms camera;
-  Rms projector;
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    PoseReport pose;
-    pose.name = problem.poses[i].name;
-    pose.used = problem.used[i];
-    pose.reason = pose.used ? repeated[i] : reasons[i];
-    if (!problem.poses[i].in_camera.empty()) report_pose(problem, fit, i, pose, camera, projector);
-    report.poses.push_back(std::move(pose));
-  }
-  report.camera_rms_px = camera.value();
-  report.projector_rms_px = projector.value();
-  Rms joint = camera;
-  joint.squares += projector.squares;
-  joint.count += projector.count;
-  report.joint_rms_px = joint.value();
-  report_squares(problem, fit, report);
-  report.parameters = report_parameters(problem, fit);
-  return report;
+  if (Expected<void> placed = place(start); !placed) return tl::unexpected(placed.error());
+  return start;
 }
 
 // Relative standard deviation of a focal length that the poses leave.
 double focal_uncertainty(const AdjustmentProblem& problem, const Adjustment& fit, int parameter) {
-  Eigen::Index position = 0;
-  for (int p = 0; p < parameter; ++p) position += problem.free[static_cast<std::size_t>(p)] ? 1 : 0;
-  const double variance = covariance_of(fit)(position, position);
-  return variance >= 0 ? std::sqrt(variance) / parameter_value(fit.rig.calibration, parameter)
-                       : max_focal_uncertainty;
+  const int at = position_in(problem.free, parameter);
+  const double variance = covariance_of(fit)(at, at);
+  const double value = parameter_value(fit.rig.calibration, parameter);
+  return variance >= 0 && value > 0 ? std::sqrt(variance) / value : std::numeric_limits<double>::infinity();
 }
 
-Expected<CalibrationResult> calibrate_extrinsics(const CalibrationRequest& request,
-                                                 AdjustmentProblem& problem,
-                                                 std::vector<std::string> reasons) {
-  RigEstimate rig{*request.keep_intrinsics, std::vector<RigidTransform>(problem.poses.size())};
-  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    if (!problem.used[i]) continue;
-    const auto pose = guess_board(request.board, problem.poses[i], rig.calibration.camera);
-    if (!pose) return input_error(problem.poses[i].name + ": its corners do not determine a plane");
-    rig.camera_from_board[i] = *pose;
+Expected<void> check_focal_lengths(const AdjustmentProblem& problem, const Adjustment& fit) {
+  for (const int parameter :
+       {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
+    const double uncertainty = focal_uncertainty(problem, fit, parameter);
+    if (uncertainty < max_focal_uncertainty) continue;
+    std::string message =
+        "the poses are too much alike to tell the focal lengths (" + parameter_name(parameter) + " to " +
+        percent(std::min(uncertainty, 9.99)) +
+        "): hold the board tilted by 20 to 40 degrees, to the left, the right, up and down, "
+        "nearer and farther";
+    for (const std::string& line : advise_on_poses(problem, fit)) message += "\n  " + line;
+    return input_error(message);
   }
-  const auto extrinsics = guess_extrinsics(request.board, problem.poses, problem.used, rig);
-  if (!extrinsics) return tl::unexpected(extrinsics.error());
-  rig.calibration.projector_from_camera = *extrinsics;
-  problem.free = extrinsics_only();
-  Adjustment fit = adjust(problem, rig);
-  const std::vector<std::string> disagreeing = leave_out_disagreeing(problem, fit);
+  return check_calibration(fit.rig.calibration);
+}
+
+// Poses that contradict one another, so that which one is bad cannot be told.
+Expected<void> check_agreement(double surprise, const CalibrationReport& report) {
+  if (surprise < disagreeing) return {};
+  return input_error(
+      "the poses contradict one another: a pose is " + fixed_text(*report.leave_one_out_camera_px, 2) +
+      " px off in the camera and " + fixed_text(*report.leave_one_out_projector_px, 2) +
+      " px off in the projector when the others are calibrated without it; at least one is bad, and a few "
+      "more good ones would show which");
+}
+
+// Those of before, and `more` where there were none.
+std::vector<std::string> reasons_with(std::vector<std::string> reasons,
+                                      const std::vector<std::string>& more) {
   for (std::size_t i = 0; i < reasons.size(); ++i)
-    if (reasons[i].empty()) reasons[i] = disagreeing[i];
-  return CalibrationResult{fit.rig.calibration, report_of(problem, fit, reasons)};
+    if (reasons[i].empty()) reasons[i] = more[i];
+  return reasons;
+}
+
+bool fits_as_before(double rms_px, double before_px, double limit_px) {
+  if (before_px > 0) limit_px = std::min(limit_px, kept_ratio * std::max(before_px, least_misfit_px));
+  return rms_px <= limit_px;
+}
+
+Expected<CalibrationResult> calibrate_extrinsics(const CalibrationRequest& request, const Start& start,
+                                                 const std::vector<bool>& used,
+                                                 std::vector<std::string> reasons) {
+  AdjustmentProblem problem{request.board, start.poses, used, extrinsics_only()};
+  Adjustment fit = adjust(problem, start.rig);
+  reasons = reasons_with(std::move(reasons), leave_out_disagreeing(problem, fit));
+  CalibrationResult result{fit.rig.calibration, report_of(problem, {fit, {}}, reasons)};
+  const CalibrationReport& report = result.report;
+  const KeptCalibration& kept = *request.kept;
+  if (!fits_as_before(report.camera_rms_px, kept.camera_rms_px, max_kept_camera_px) ||
+      !fits_as_before(report.projector_rms_px, kept.projector_rms_px, max_kept_projector_px))
+    return input_error(
+        "the kept lenses do not fit these pictures: " + fixed_text(report.camera_rms_px, 2) +
+        " px off in the camera, " + fixed_text(report.projector_rms_px, 2) +
+        " px in the projector; focus or zoom was changed, or a picture is bad: calibrate anew, "
+        "from several poses" +
+        bad_poses(request, reasons));
+  const double surprise = report_leave_one_out(problem, fit, result.report);
+  if (const Expected<void> agree = check_agreement(surprise, result.report); !agree)
+    return input_error(agree.error().message + bad_poses(request, reasons));
+  if (std::ranges::count(problem.used, true) == 1)
+    result.report.advice.push_back(
+        "one pose tells where the projector is, but nothing checks it: a second one, held elsewhere, would");
+  return result;
+}
+
+Expected<CalibrationResult> calibrate_whole(const CalibrationRequest& request, const Start& start,
+                                            const std::vector<bool>& used, std::vector<std::string> reasons) {
+  AdjustmentProblem problem{request.board, start.poses, used, {}};
+  problem.free = all_parameters(static_cast<int>(std::ranges::count(used, true)));
+  Adjustment fit = adjust(problem, start.rig);
+  reasons = reasons_with(std::move(reasons), leave_out_disagreeing(problem, fit));
+  problem.free = all_parameters(static_cast<int>(std::ranges::count(problem.used, true)));
+  const SupportedFit supported = adjust_supported(problem, fit.rig);
+  if (const Expected<void> known = check_focal_lengths(problem, supported.fit); !known)
+    return input_error(known.error().message + bad_poses(request, reasons));
+  CalibrationResult result{supported.fit.rig.calibration, report_of(problem, supported, reasons)};
+  const double surprise = report_leave_one_out(problem, supported.fit, result.report);
+  if (const Expected<void> agree = check_agreement(surprise, result.report); !agree)
+    return input_error(agree.error().message + bad_poses(request, reasons));
+  result.report.advice = advise(problem, supported);
+  if (has_pairs(start.poses) && !has_captures(start.poses))
+    result.report.advice.push_back(
+        "pairs of pictures do not tell whether the projector stands upright or upside down: it is taken to "
+        "stand so that its picture's right is the camera picture's right (or below); a Gray-code pose tells");
+  return result;
 }
 
 }  // namespace
 
 Expected<CalibrationResult> calibrate(const CalibrationRequest& request) {
-  const std::vector<PoseObservation> poses = observations_of(request);
-  AdjustmentProblem problem{request.board, poses, {}, {}};
   std::vector<std::string> reasons;
+  std::vector<bool> used;
   const std::vector<std::string> blurred = blurred_poses(request);
   for (std::size_t i = 0; i < request.poses.size(); ++i) {
     reasons.push_back(request.poses[i].failure.empty() ? blurred[i] : request.poses[i].failure);
-    problem.used.push_back(reasons.back().empty());
+    used.push_back(reasons.back().empty());
   }
-  const std::ptrdiff_t seen = std::ranges::count(problem.used, true);
-  if (request.keep_intrinsics) {
-    if (seen < 1) return too_few(request, reasons, seen, 1);
-    return calibrate_extrinsics(request, problem, reasons);
-  }
-  if (seen < fewest_poses) return too_few(request, reasons, seen, fewest_poses);
-
-  const Expected<RigEstimate> guess =
-      guess_rig(request.board, poses, problem.used, request.camera, request.projector);
-  if (!guess) return tl::unexpected(guess.error());
-  problem.free = all_parameters(static_cast<int>(seen));
-  Adjustment fit = adjust(problem, *guess);
-  const std::vector<std::string> disagreeing = leave_out_disagreeing(problem, fit);
-  for (std::size_t i = 0; i < reasons.size(); ++i)
-    if (reasons[i].empty()) reasons[i] = disagreeing[i];
-  fit = adjust_supported(problem, fit.rig);
-
-  for (const int parameter :
-       {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
-    const double uncertainty = focal_uncertainty(problem, fit, parameter);
-    if (uncertainty >= max_focal_uncertainty) {
-      std::string message = "the poses are too much alike: " + parameter_name(parameter) + " is known to " +
-                            percent(uncertainty) + " only";
-      for (const std::string& line : advise(problem, fit)) message += "\n  " + line;
-      return input_error(message + bad_poses(request, reasons));
-    }
-  }
-  CalibrationResult result{fit.rig.calibration, report_of(problem, fit, reasons)};
-  report_leave_one_out(problem, fit, result.report);
-  result.report.advice = advise(problem, fit);
-  return result;
+  const std::ptrdiff_t good = std::ranges::count(used, true);
+  const int needed = request.kept ? 1 : fewest_poses;
+  if (good < needed) return too_few(request, reasons, good, needed);
+  const Expected<Start> start = request.kept ? start_from_kept(request, observations_of(request), used)
+                                             : start_whole(request, observations_of(request), used);
+  if (!start) return input_error(start.error().message + bad_poses(request, reasons));
+  return request.kept ? calibrate_extrinsics(request, *start, used, reasons)
+                      : calibrate_whole(request, *start, used, reasons);
 }
 
 }  // namespace bodyscan

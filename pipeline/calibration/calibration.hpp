@@ -11,6 +11,13 @@ struct RigidTransform {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  // mm
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation; }
+  // c_from_b * b_from_a is c_from_a.
+  RigidTransform operator*(const RigidTransform& before) const {
+    return {rotation * before.rotation, *this * before.translation};
+  }
+  [[nodiscard]] RigidTransform inverse() const {
+    return {rotation.transpose(), -(rotation.transpose() * translation)};
+  }
 };
 
 struct Calibration {

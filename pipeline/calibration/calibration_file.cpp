@@ -144,6 +144,18 @@ Expected<Calibration> parse_calibration(std::string_view text, const std::string
   });
 }
 
+Expected<CalibrationNotes> read_calibration_notes(const std::filesystem::path& path) {
+  const Expected<std::vector<std::byte>> file = read_file(path, max_calibration_bytes);
+  if (!file) return tl::unexpected(file.error());
+  const Expected<FileStorageText> text =
+      FileStorageText::parse(as_text(*file)).map_error([&](const Error& error) {
+        return error.within(path.string());
+      });
+  if (!text) return tl::unexpected(text.error());
+  return CalibrationNotes{std::nullopt, text->optional_number("camera_rms_px"),
+                          text->optional_number("projector_rms_px"), text->optional_number("stereo_rms_px")};
+}
+
 Expected<Calibration> read_calibration(const std::filesystem::path& path) {
   const Expected<std::vector<std::byte>> file = read_file(path, max_calibration_bytes);
   if (!file) return tl::unexpected(file.error());

@@ -31,6 +31,9 @@ struct CalibrationNotes {
   std::optional<double> stereo_rms_px;  // both together
 };
 
+// How well a calibration file says that its calibration fits; what it does not say is empty.
+Expected<CalibrationNotes> read_calibration_notes(const std::filesystem::path& path);
+
 // The file's content. A calibration that check_calibration rejects is an error of kind `output`. Numbers read
 // back equal.
 Expected<std::string> calibration_text(const Calibration& calibration, const CalibrationNotes& notes = {});

@@ -21,8 +21,10 @@ struct CornerResidual {
 struct PoseReport {
   std::string name;  // "pose 4", counted from 0 as in session.json
   bool used = true;
-  std::string reason;        // why it was left out; or what is noteworthy, empty for nothing
-  double camera_rms_px = 0;  // of the used corners, both directions together
+  std::string reason;              // why it was left out
+  std::vector<std::string> notes;  // what is noteworthy about one that was not
+  bool located = true;             // false: where the board was is not known, nor what follows
+  double camera_rms_px = 0;        // of the corners that fit, both directions together
   double projector_rms_px = 0;
   double distance_mm = 0;   // of the board's middle from the camera
   double tilt_degrees = 0;  // of the board's normal from the camera's axis
@@ -35,25 +37,31 @@ struct PoseReport {
 struct ParameterReport {
   std::string name;  // "camera fx"; lengths in px, mm; angles in degrees
   double value = 0;
-  std::optional<double> sigma;  // standard deviation; nothing where it was not estimated but fixed
+  std::optional<double> sigma;  // standard deviation, of a fixed one before it was fixed; nothing: not known
+  bool estimated = true;        // false: fixed, because the poses cannot tell it from its usual value
 };
 
 // How well a calibration is known and by what.
 struct CalibrationReport {
-  double camera_rms_px = 0;
+  double camera_rms_px = 0;  // of the corners that fit, in the poses used
   double projector_rms_px = 0;
   double joint_rms_px = 0;  // camera and projector together
 
-  // Every pose predicted by a calibration from the other poses.
-  double leave_one_out_camera_px = 0;
-  double leave_one_out_projector_px = 0;
+  int corners = 0;               // of both devices in the poses used
+  int corners_left_out = 0;      // of those: they do not fit
+  double all_camera_rms_px = 0;  // with these
+  double all_projector_rms_px = 0;
+
+  // Every pose under a calibration from the other poses, its board fitted to it.
+  std::optional<double> leave_one_out_camera_px;
+  std::optional<double> leave_one_out_projector_px;
 
   // The board's squares, triangulated from camera and projector: mean side over the printed one, less one,
   // and the sides' standard deviation, in percent. The same leaving each pose out of the calibration that
   // measures it.
   double square_error_percent = 0;
   double square_spread_percent = 0;
-  double leave_one_out_square_error_percent = 0;
+  std::optional<double> leave_one_out_square_error_percent;
 
   std::vector<ParameterReport> parameters;
   std::vector<PoseReport> poses;

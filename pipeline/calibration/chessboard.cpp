@@ -233,7 +233,7 @@ Extent extent_of(const std::map<Place, std::size_t>& board) {
 
 // Rows and columns at the rim that hold less than a third of their corners are stray saddles, not the board.
 void trim(std::map<Place, std::size_t>& board) {
-  for (;;) {
+  while (!board.empty()) {
     const Extent extent = extent_of(board);
     const int columns = extent.right - extent.left + 1;
     const int rows = extent.bottom - extent.top + 1;
@@ -259,7 +259,6 @@ void trim(std::map<Place, std::size_t>& board) {
     } else {
       return;
     }
-    if (board.empty()) return;
   }
 }
 
@@ -304,7 +303,7 @@ std::optional<ChessboardCorners> turned_upright(const ChessboardCorners& board, 
   ChessboardCorners turned = board;
   for (int quarter = 0; quarter < 4; ++quarter, turned = turned_by_a_quarter(turned)) {
     if (turned.columns != columns || turned.rows != rows) continue;
-    const double direction = column_direction(turned).dot(Vector2d(1, 1e-3));
+    const double direction = column_direction(turned).dot(Vector2d(1, 1));
     if (direction <= best_direction) continue;
     best_direction = direction;
     best = turned;

@@ -24,9 +24,10 @@ struct ChessboardCorners {
   [[nodiscard]] bool complete() const { return found() == columns * rows; }
 };
 
-// The same board with `columns` x `rows` corners, turned so that columns count towards the picture's right
-// (or downwards, where they run up and down); nothing where its sides are others. A board whose colours do
-// not change under half a turn looks the same upside down, so this is a convention.
+// The same board with `columns` x `rows` corners, turned so that columns count towards the picture's lower
+// right: to the right in a board that stands as the picture, downwards in one on its side; nothing where its
+// sides are others. A board whose colours do not change under half a turn looks the same upside down, so this
+// is a convention.
 std::optional<ChessboardCorners> turned_upright(const ChessboardCorners& board, int columns, int rows);
 
 // Boards that grow from the saddle points, largest first: neighbouring corners lie where the ones before

@@ -1,8 +1,11 @@
 #include "pipeline/calibration/corner_refinement.hpp"
 
+#include "pipeline/base/median.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
@@ -14,8 +17,8 @@ using Eigen::Vector2d;
 
 constexpr int max_iterations = 20;
 constexpr double converged_px = 1e-3;
-constexpr double max_walk = 0.7;          // of the half window
-constexpr double min_roundness = 0.05;    // smaller over larger eigenvalue of the gradients' covariance
+constexpr double max_walk = 0.7;        // of the half window
+constexpr double min_roundness = 0.05;  // of the gradients: 4 det / trace^2, 1 where all directions are alike
 constexpr double window_share = 1.0 / 6;  // of a square, half a window
 constexpr double min_half_window = 3;
 
@@ -35,23 +38,26 @@ bool inside(const FloatImage& image, const Vector2d& at, double margin) {
          at.y() < image.height() - 1 - margin;
 }
 
-// One step from `at`; nothing where the window shows no corner.
+// One step from `at`; nothing where the window shows no corner. Pixels as they are, the window's rim fading
+// over a pixel: interpolated gradients pull corners towards pixel centres.
 std::optional<Vector2d> step(const FloatImage& image, const FloatImage* weight, const Vector2d& at,
                              int half) {
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Vector2d right = Vector2d::Zero();
   const double fade = 1 / (0.5 * half * half);
-  for (int dy = -half; dy <= half; ++dy) {
-    for (int dx = -half; dx <= half; ++dx) {
-      const double x = at.x() + dx;
-      const double y = at.y() + dy;
-      const Vector2d gradient((sample(image, x + 1, y) - sample(image, x - 1, y)) / 2,
-                              (sample(image, x, y + 1) - sample(image, x, y - 1)) / 2);
-      double w = std::exp(-fade * (dx * dx + dy * dy));
-      if (weight != nullptr) w *= sample(*weight, x, y);
+  const auto inside_rim = [&](double d) { return std::clamp(half + 1 - std::abs(d), 0.0, 1.0); };
+  const int left = static_cast<int>(std::floor(at.x())) - half;
+  const int top = static_cast<int>(std::floor(at.y())) - half;
+  for (int y = top; y <= top + 2 * half + 1; ++y) {
+    for (int x = left; x <= left + 2 * half + 1; ++x) {
+      const Vector2d offset = Vector2d(x, y) - at;
+      const Vector2d gradient(static_cast<double>(image(x + 1, y) - image(x - 1, y)) / 2,
+                              static_cast<double>(image(x, y + 1) - image(x, y - 1)) / 2);
+      double w = std::exp(-fade * offset.squaredNorm()) * inside_rim(offset.x()) * inside_rim(offset.y());
+      if (weight != nullptr) w *= static_cast<double>((*weight)(x, y));
       const Eigen::Matrix2d outer = w * gradient * gradient.transpose();
       normal += outer;
-      right += outer * Vector2d(dx, dy);
+      right += outer * offset;
     }
   }
   const double trace = normal.trace();
@@ -122,7 +128,7 @@ std::optional<Vector2d> refine_corner(const FloatImage& image, const FloatImage*
     at = *next;
     if (moved < converged_px) return at;
   }
-  return at;
+  return std::nullopt;
 }
 
 ChessboardCorners refine_corners(const FloatImage& image, const FloatImage* weight,
@@ -145,10 +151,7 @@ double edge_blur_px(const FloatImage& image, const ChessboardCorners& board) {
   for_each_pair(board, [&](const Vector2d& a, const Vector2d& b) {
     if (const auto blur = blur_between(image, a, b)) blurs.push_back(*blur);
   });
-  if (blurs.empty()) return 0;
-  const auto middle = blurs.begin() + static_cast<std::ptrdiff_t>(blurs.size() / 2);
-  std::nth_element(blurs.begin(), middle, blurs.end());
-  return *middle;
+  return median(std::move(blurs));
 }
 
 double square_px(const ChessboardCorners& board) {

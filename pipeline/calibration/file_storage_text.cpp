@@ -194,6 +194,14 @@ Expected<std::vector<double>> FileStorageText::sequence(const std::string& key, 
   return values;
 }
 
+std::optional<double> FileStorageText::optional_number(const std::string& key) const {
+  const Expected<std::string_view> text = value(key);
+  if (!text) return std::nullopt;
+  Scanner scanner(*text);
+  const Expected<double> value = number(scanner.word());
+  return value && scanner.done() ? std::optional(*value) : std::nullopt;
+}
+
 Expected<std::vector<double>> FileStorageText::matrix(const std::string& key, int rows, int columns) const {
   const Expected<std::string_view> text = value(key);
   if (!text) return tl::unexpected(text.error());

@@ -3,6 +3,7 @@
 #include "pipeline/base/error.hpp"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ class FileStorageText {
 
   // Finite numbers, `count` of them, row by row for a matrix. Messages start with the key.
   [[nodiscard]] Expected<std::vector<double>> sequence(const std::string& key, std::size_t count) const;
+  // A finite number; nothing where there is none under that key.
+  [[nodiscard]] std::optional<double> optional_number(const std::string& key) const;
   [[nodiscard]] Expected<std::vector<double>> matrix(const std::string& key, int rows, int columns) const;
 
  private:

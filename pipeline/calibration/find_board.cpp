@@ -1,5 +1,6 @@
 #include "pipeline/calibration/find_board.hpp"
 
+#include "pipeline/base/median.hpp"
 #include "pipeline/base/parallel.hpp"
 #include "pipeline/calibration/corner_refinement.hpp"
 #include "pipeline/decode/response.hpp"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +22,10 @@ constexpr double min_found = 0.8;  // share of the corners
 constexpr float full_scale = 255;  // of the pictures searched, grey levels
 constexpr float min_light = 0.3F;  // grey levels of linear light: a ratio to less is noise
 constexpr float max_ratio = 4;
-constexpr double hide_share = 0.2;  // of a square around a printed corner
+constexpr double hide_share = 0.2;  // of a square around a printed corner, where no other is looked for
 constexpr float saturated = 254;    // grey levels
 constexpr double overexposed_share = 0.25;
+constexpr double alike_share = 0.1;        // of a square: shifts that one motion of the board explains
 constexpr double too_dark = 12;            // grey levels, mean
 constexpr double too_little_change = 0.2;  // of the light, between a pair's pictures
 constexpr int rows_a_task = 32;
@@ -124,14 +127,34 @@ struct Search {
 };
 constexpr Search searches[] = {{1.5F, 5}, {3, 8}};
 
-// Searches the reduced picture, sharp structures first.
-Expected<ChessboardCorners> search(const FloatImage& image, int columns, int rows, const char* what) {
+// Corners that are known already, in the reduced picture.
+struct Known {
+  std::vector<Vector2d> corners;
+  double radius = 0;
+
+  [[nodiscard]] bool holds(const Vector2d& at) const {
+    return std::ranges::any_of(corners, [&](const Vector2d& known) { return (known - at).norm() < radius; });
+  }
+};
+
+Known known_corners(const ChessboardCorners& board, int factor) {
+  Known known{{}, hide_share * square_px(board) / factor};
+  for (const auto& corner : board.corners)
+    if (corner) known.corners.push_back((*corner - Vector2d::Constant((factor - 1) / 2.0)) / factor);
+  return known;
+}
+
+// Searches the reduced picture for other corners than the known ones, sharp structures first.
+Expected<ChessboardCorners> search(const FloatImage& image, int columns, int rows, const char* what,
+                                   const Known& known = {}) {
   std::vector<ChessboardCorners> seen;
   for (const Search& trial : searches) {
     SaddleOptions options;
     options.blur_px = trial.blur_px;
     options.ring_px = trial.ring_px;
-    const std::vector<ChessboardCorners> boards = grow_chessboards(find_saddle_points(image, options));
+    std::vector<SaddlePoint> saddles = find_saddle_points(image, options);
+    std::erase_if(saddles, [&](const SaddlePoint& saddle) { return known.holds(saddle.at); });
+    const std::vector<ChessboardCorners> boards = grow_chessboards(saddles);
     for (const ChessboardCorners& board : boards) {
       const auto upright = turned_upright(board, columns, rows);
       if (upright && upright->found() >= min_found * columns * rows) return *upright;
@@ -163,6 +186,13 @@ double saturated_share(const FloatImage& image, const ChessboardCorners& board) 
   return count > 0 ? static_cast<double>(white) / static_cast<double>(count) : 0;
 }
 
+Expected<void> check_exposure(const FloatImage& image, const ChessboardCorners& board, const char* what) {
+  const double white = saturated_share(image, board);
+  if (white <= overexposed_share) return {};
+  return input_error(std::string(what) + ": over-exposed, " + std::to_string(std::lround(100 * white)) +
+                     " % of it is pure white");
+}
+
 Expected<FoundBoard> refined(const FloatImage& image, const FloatImage* weight,
                              const ChessboardCorners& rough, const char* what) {
   FoundBoard found{refine_corners(image, weight, rough), 0};
@@ -185,13 +215,10 @@ FloatImage ratio_of(const FloatImage& later, const FloatImage& earlier) {
 }
 
 float median_of(const FloatImage& image) {
-  std::vector<float> values(image.pixels().begin(), image.pixels().end());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::vector<float>(image.pixels().begin(), image.pixels().end()));
 }
 
-// How much a pixel of the ratio can be trusted: the noise falls with the light it is relative to.
+// How much a pixel of the ratio can be trusted: its noise falls with the light it is relative to.
 FloatImage trust_in(const FloatImage& earlier) {
   FloatImage trust(earlier.size());
   float brightest = min_light;
@@ -201,26 +228,37 @@ FloatImage trust_in(const FloatImage& earlier) {
   return trust;
 }
 
-// The picture with the surroundings of the printed corners painted over evenly.
-FloatImage without_corners(const FloatImage& image, const ChessboardCorners& corners, int factor) {
-  FloatImage hidden = image.clone();
-  const double radius = hide_share * square_px(corners) / factor;
+// Median of how far corners moved that can still be made out where they were.
+std::optional<double> small_shift(const FloatImage& image, const ChessboardCorners& corners) {
+  const double half = square_px(corners) / 8;
+  std::vector<double> shifts;
   for (const auto& corner : corners.corners) {
     if (!corner) continue;
-    const Vector2d middle = *corner / factor;
-    const int reach = static_cast<int>(std::ceil(radius));
-    const auto inside = [&](int x, int y) {
-      return x >= 0 && y >= 0 && x < image.width() && y < image.height();
-    };
-    const int cx = static_cast<int>(std::lround(middle.x()));
-    const int cy = static_cast<int>(std::lround(middle.y()));
-    if (!inside(cx, cy)) continue;
-    const float paint = image(cx, cy);
-    for (int y = cy - reach; y <= cy + reach; ++y)
-      for (int x = cx - reach; x <= cx + reach; ++x)
-        if (inside(x, y) && std::hypot(x - middle.x(), y - middle.y()) <= radius) hidden(x, y) = paint;
+    if (const auto now = refine_corner(image, nullptr, *corner, half))
+      shifts.push_back((*now - *corner).norm());
   }
-  return hidden;
+  if (shifts.size() < corners.corners.size() / 4) return std::nullopt;
+  return median(shifts);
+}
+
+// The shift, up to half a square, that most corners have in common.
+std::optional<double> large_shift(const FloatImage& image, const ChessboardCorners& corners) {
+  const int factor = search_factor(image.size());
+  const double square = square_px(corners) / factor;
+  const Known known = known_corners(corners, factor);
+  std::vector<Vector2d> shifts;
+  for (const SaddlePoint& saddle : find_saddle_points(reduced(image, factor), {}))
+    for (const Vector2d& corner : known.corners)
+      if ((saddle.at - corner).norm() < square / 2) shifts.push_back(saddle.at - corner);
+  std::vector<double> common;
+  for (const Vector2d& shift : shifts) {
+    std::vector<double> alike;
+    for (const Vector2d& other : shifts)
+      if ((other - shift).norm() < alike_share * square) alike.push_back(other.norm());
+    if (alike.size() > common.size()) common = std::move(alike);
+  }
+  if (common.size() < known.corners.size() / 3) return std::nullopt;
+  return factor * median(common);
 }
 
 }  // namespace
@@ -232,10 +270,8 @@ Expected<FoundBoard> find_printed_board(const Luma& picture, const PrintedBoard&
   const FloatImage small = reduced(image, factor);
   const auto rough = search(small, board.columns, board.rows, what);
   if (!rough) return input_error(rough.error().message + light_hint(small));
-  const double white = saturated_share(small, *rough);
-  if (white > overexposed_share)
-    return input_error(std::string(what) + ": over-exposed, " + std::to_string(std::lround(100 * white)) +
-                       " % of it is pure white");
+  if (const auto exposed = check_exposure(small, *rough, what); !exposed)
+    return tl::unexpected(exposed.error());
   return refined(image, nullptr, enlarged(*rough, factor), what);
 }
 
@@ -247,14 +283,16 @@ Expected<FoundBoard> find_projected_board(const Luma& printed, const Luma& proje
   const int factor = search_factor(earlier.size());
   const FloatImage small_ratio = ratio_of(reduced(later, factor), reduced(earlier, factor));
   const auto on_ratio = search(small_ratio, board.columns, board.rows, what);
+  const FloatImage image = encoded(projected);
   if (on_ratio) {
+    if (const auto exposed = check_exposure(reduced(image, factor), *on_ratio, what); !exposed)
+      return tl::unexpected(exposed.error());
     const FloatImage trust = trust_in(earlier);
     auto found = refined(ratio_of(later, earlier), &trust, enlarged(*on_ratio, factor), what);
     if (found) return found;
   }
-  const FloatImage image = encoded(projected);
-  const auto on_picture = search(without_corners(reduced(image, factor), printed_board.corners, factor),
-                                 board.columns, board.rows, what);
+  const auto on_picture = search(reduced(image, factor), board.columns, board.rows, what,
+                                 known_corners(printed_board.corners, factor));
   if (on_picture) return refined(image, nullptr, enlarged(*on_picture, factor), what);
   const std::string dark =
       median_of(small_ratio) < full_scale / max_ratio * too_little_change ? " (too dark)" : "";
@@ -262,20 +300,10 @@ Expected<FoundBoard> find_projected_board(const Luma& printed, const Luma& proje
   return input_error((on_ratio ? on_picture.error() : on_ratio.error()).message + hint);
 }
 
-double board_shift_px(const Luma& later, const FoundBoard& before) {
+std::optional<double> board_shift_px(const Luma& later, const FoundBoard& before) {
   const FloatImage image = encoded(later);
-  const ChessboardCorners& corners = before.corners;
-  const double half = square_px(corners) / 8;
-  std::vector<double> shifts;
-  for (const auto& corner : corners.corners) {
-    if (!corner) continue;
-    if (const auto now = refine_corner(image, nullptr, *corner, half))
-      shifts.push_back((*now - *corner).norm());
-  }
-  if (shifts.size() < corners.corners.size() / 4) return 0;
-  const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
-  std::nth_element(shifts.begin(), middle, shifts.end());
-  return *middle;
+  const auto near_by = small_shift(image, before.corners);
+  return near_by ? near_by : large_shift(image, before.corners);
 }
 
 }  // namespace bodyscan

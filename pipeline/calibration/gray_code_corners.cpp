@@ -1,5 +1,6 @@
 #include "pipeline/calibration/gray_code_corners.hpp"
 
+#include "pipeline/base/median.hpp"
 #include "pipeline/calibration/corner_refinement.hpp"
 #include "pipeline/calibration/homography.hpp"
 
@@ -62,10 +63,7 @@ void drop_outliers(Neighbourhood& near, const Eigen::Matrix3d& homography) {
   std::vector<double> lengths;
   for (std::size_t i = 0; i < near.camera.size(); ++i)
     lengths.push_back((apply_homography(homography, near.camera[i]) - near.projector[i]).norm());
-  std::vector<double> sorted = lengths;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = outlier_sigmas * *middle / std::sqrt(2 * std::log(2.0)) + 1e-6;
+  const double limit = outlier_sigmas * median(lengths) / std::sqrt(2 * std::log(2.0)) + 1e-6;
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if (lengths[i] > limit) near.weight[i] = 0;
 }

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 constexpr double smallest_focal = 0.4;  // of the picture's width
 constexpr double largest_focal = 10;
 constexpr int focal_steps = 24;
+constexpr std::size_t most_judged = 20;
 constexpr double patience_px = 30;  // no residual counts for more, so that a bad pose does not decide
 
 double focal_of(int step, Size size) {
@@ -113,32 +114,24 @@ Lens guess_camera(const std::vector<Pairs>& poses, Size size) {
   return best;
 }
 
-RigidTransform inverse(const RigidTransform& transform) {
-  const Eigen::Matrix3d back = transform.rotation.transpose();
-  return {back, -back * transform.translation};
-}
-
-RigidTransform chained(const RigidTransform& c_from_b, const RigidTransform& b_from_a) {
-  return {c_from_b.rotation * b_from_a.rotation, c_from_b * b_from_a.translation};
-}
-
 struct ProjectorGuess {
   Lens lens;
   RigidTransform projector_from_camera;
   double misfit = std::numeric_limits<double>::max();
 };
 
-// The best of the poses each single board gives, judged by all boards.
+// The best of the poses each single board gives, judged by all boards, or by some of very many.
 ProjectorGuess best_pose(const Lens& lens, const std::vector<Pairs>& pairs,
                          const std::vector<RigidTransform>& camera_from_board) {
   ProjectorGuess best{lens, {}};
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  const std::size_t stride = pairs.size() / most_judged + 1;
+  for (std::size_t i = 0; i < pairs.size(); i += stride) {
     const auto pose = pose_in(lens, pairs[i]);
     if (!pose) continue;
-    const RigidTransform candidate = chained(*pose, inverse(camera_from_board[i]));
+    const RigidTransform candidate = *pose * camera_from_board[i].inverse();
     double sum = 0;
-    for (std::size_t k = 0; k < pairs.size(); ++k)
-      sum += misfit(lens, chained(candidate, camera_from_board[k]), pairs[k]);
+    for (std::size_t k = 0; k < pairs.size(); k += stride)
+      sum += misfit(lens, candidate * camera_from_board[k], pairs[k]);
     if (sum < best.misfit) best = {lens, candidate, sum};
   }
   return best;

@@ -27,4 +27,7 @@ struct PoseObservation {
   std::vector<Beam> projected;
 };
 
+// The corners of a pose whose weights, in the order of predict_residuals, are not 0.
+PoseObservation fitting_corners(const PoseObservation& pose, const std::vector<double>& weights);
+
 }  // namespace bodyscan

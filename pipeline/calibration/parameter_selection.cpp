@@ -1,7 +1,9 @@
 #include "pipeline/calibration/parameter_selection.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -16,20 +18,23 @@ using Eigen::VectorXd;
 // logarithm of the number of residuals (the Bayesian information criterion).
 constexpr double min_chi_squared = 10;
 
-using Group = std::vector<int>;
+struct Group {
+  std::vector<int> parameters;
+  std::optional<int> after;  // a higher term of the same series, fixed before
+};
 
 // In the order in which they are given up where they are equally insignificant.
 std::vector<Group> droppable_groups() {
   std::vector<Group> groups;
   for (const auto of : {&projector_parameter, &camera_parameter}) {
-    groups.push_back({of(LensParameter::k3)});
-    groups.push_back({of(LensParameter::p1), of(LensParameter::p2)});
-    groups.push_back({of(LensParameter::k2)});
-    groups.push_back({of(LensParameter::aspect)});
-    groups.push_back({of(LensParameter::k1)});
+    groups.push_back({{of(LensParameter::k3)}, {}});
+    groups.push_back({{of(LensParameter::p1), of(LensParameter::p2)}, {}});
+    groups.push_back({{of(LensParameter::k2)}, of(LensParameter::k3)});
+    groups.push_back({{of(LensParameter::aspect)}, {}});
+    groups.push_back({{of(LensParameter::k1)}, of(LensParameter::k2)});
   }
-  groups.push_back({projector_parameter(LensParameter::cx)});
-  groups.push_back({camera_parameter(LensParameter::cx), camera_parameter(LensParameter::cy)});
+  groups.push_back({{projector_parameter(LensParameter::cx)}, {}});
+  groups.push_back({{camera_parameter(LensParameter::cx), camera_parameter(LensParameter::cy)}, {}});
   return groups;
 }
 
@@ -47,28 +52,49 @@ double default_of(int parameter, const Calibration& calibration) {
   }
 }
 
-bool is_free(const ParameterMask& mask, const Group& group) {
-  return std::ranges::all_of(group, [&](int p) { return mask[static_cast<std::size_t>(p)]; });
+// How far from its default a parameter may lie in a lens worth calibrating. Data that leave more room than
+// that do not determine it, whatever they say by chance.
+double plausible_departure(int parameter, const Calibration& calibration) {
+  const Lens& lens = parameter < lens_parameters ? calibration.camera : calibration.projector;
+  switch (static_cast<LensParameter>(parameter % lens_parameters)) {
+    case LensParameter::aspect:
+    case LensParameter::p1:
+    case LensParameter::p2:
+      return 0.02;
+    case LensParameter::cx:
+      return 0.1 * lens.size.width;
+    case LensParameter::cy:
+      return 0.1 * lens.size.height;
+    case LensParameter::k1:
+      return 0.5;
+    default:
+      return 1;
+  }
 }
 
-// Position among the free parameters.
-Eigen::Index position(const ParameterMask& mask, int parameter) {
-  Eigen::Index before = 0;
-  for (int i = 0; i < parameter; ++i) before += mask[static_cast<std::size_t>(i)] ? 1 : 0;
-  return before;
+bool is_free(const ParameterMask& mask, int parameter) {
+  return mask[static_cast<std::size_t>(parameter)];
 }
 
-// Chi squared a parameter of a group's departure from its defaults.
-double significance(const Group& group, const ParameterMask& mask, const Calibration& calibration,
+bool is_droppable(const ParameterMask& mask, const Group& group) {
+  return std::ranges::all_of(group.parameters, [&](int p) { return is_free(mask, p); }) &&
+         !(group.after && is_free(mask, *group.after));
+}
+
+// Chi squared a parameter of a group's departure from its defaults; 0 where the data do not determine it.
+double significance(const std::vector<int>& group, const ParameterMask& mask, const Calibration& calibration,
                     const MatrixXd& covariance) {
   const auto size = static_cast<Eigen::Index>(group.size());
   VectorXd departure(size);
   MatrixXd block(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
     const int parameter = group[static_cast<std::size_t>(i)];
+    const int at = position_in(mask, parameter);
+    if (std::sqrt(covariance(at, at)) > plausible_departure(parameter, calibration)) return 0;
     departure[i] = parameter_value(calibration, parameter) - default_of(parameter, calibration);
     for (Eigen::Index k = 0; k < size; ++k)
-      block(i, k) = covariance(position(mask, parameter), position(mask, group[static_cast<std::size_t>(k)]));
+      block(i, k) =
+          covariance(position_in(mask, parameter), position_in(mask, group[static_cast<std::size_t>(k)]));
   }
   const double chi_squared = departure.dot(block.ldlt().solve(departure));
   return chi_squared >= 0 ? chi_squared / static_cast<double>(size) : 0;
@@ -92,29 +118,32 @@ ParameterMask extrinsics_only() {
   return mask;
 }
 
-Adjustment adjust_supported(AdjustmentProblem& problem, const RigEstimate& start) {
+SupportedFit adjust_supported(AdjustmentProblem& problem, const RigEstimate& start) {
   const std::vector<Group> groups = droppable_groups();
-  Adjustment fit = adjust(problem, start);
+  SupportedFit result{adjust(problem, start), {}};
   for (;;) {
-    const MatrixXd covariance = covariance_of(fit);
+    const MatrixXd covariance = covariance_of(result.fit);
     const Group* weakest = nullptr;
     double least = min_chi_squared;
     for (const Group& group : groups) {
-      if (!is_free(problem.free, group)) continue;
-      const double chi_squared = significance(group, problem.free, fit.rig.calibration, covariance);
+      if (!is_droppable(problem.free, group)) continue;
+      const double chi_squared =
+          significance(group.parameters, problem.free, result.fit.rig.calibration, covariance);
       if (chi_squared >= least) continue;
       least = chi_squared;
       weakest = &group;
     }
-    if (weakest == nullptr) return fit;
-    RigEstimate next = fit.rig;
-    for (const int parameter : *weakest) {
+    if (weakest == nullptr) return result;
+    RigEstimate next = result.fit.rig;
+    for (const int parameter : weakest->parameters) {
+      const int at = position_in(problem.free, parameter);
+      result.fixed.push_back({parameter, std::sqrt(std::max(0.0, covariance(at, at)))});
       const double change =
           default_of(parameter, next.calibration) - parameter_value(next.calibration, parameter);
       next.calibration = moved(next.calibration, parameter, change);
-      problem.free.reset(static_cast<std::size_t>(parameter));
     }
-    fit = adjust(problem, next);
+    for (const int parameter : weakest->parameters) problem.free.reset(static_cast<std::size_t>(parameter));
+    result.fit = adjust(problem, next);
   }
 }
 

@@ -1,11 +1,12 @@
 #include "pipeline/calibration/pose_agreement.hpp"
 
+#include "pipeline/base/median.hpp"
+#include "pipeline/base/number_text.hpp"
 #include "pipeline/calibration/initial_guess.hpp"
 #include "pipeline/calibration/square_check.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bodyscan {
 namespace {
@@ -13,24 +14,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double suspicious = 1.7;  // times the poses' median misfit
-constexpr double disagreeing = 4;   // times the others' median, under a calibration without it
-constexpr double floor_px = 0.03;   // a misfit below is nothing to complain of
 constexpr double other_board_percent = 1.5;
-constexpr int fewest_poses = 3;
 constexpr double outlier_sigmas = 6;
-
-std::string text(double value, int digits) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.*f", digits, value);
-  return buffer;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Without single false corners: lengths far beyond what the median of all would let expect.
 double root_mean_square(const std::vector<Vector2d>& residuals, std::size_t begin, std::size_t end) {
@@ -56,13 +41,8 @@ PoseMisfit misfit_at(const AdjustmentProblem& problem, const Calibration& calibr
           root_mean_square(residuals, camera_count(seen), residuals.size()), camera_from_board};
 }
 
-struct Typical {
-  double camera_px;
-  double projector_px;
-};
-
 // Medians over the used poses, `without` left out.
-Typical typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t without) {
+PoseMisfit typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t without) {
   std::vector<double> camera;
   std::vector<double> projector;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
@@ -71,11 +51,12 @@ Typical typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, 
     camera.push_back(misfit.camera_px);
     projector.push_back(misfit.projector_px);
   }
-  return {std::max(median(camera), floor_px), std::max(median(projector), floor_px)};
+  return {median(camera), median(projector), {}};
 }
 
-double ratio(const PoseMisfit& misfit, const Typical& typical) {
-  return std::max(misfit.camera_px / typical.camera_px, misfit.projector_px / typical.projector_px);
+double ratio(const PoseMisfit& misfit, const PoseMisfit& typical) {
+  return std::max(misfit.camera_px / std::max(typical.camera_px, least_misfit_px),
+                  misfit.projector_px / std::max(typical.projector_px, least_misfit_px));
 }
 
 // Of the printed corners about the flat board that fits them best, whatever the projector says.
@@ -90,19 +71,22 @@ double camera_misfit_alone(const AdjustmentProblem& problem, const Adjustment& f
 }
 
 std::string reason_of(const AdjustmentProblem& problem, const Adjustment& without, const PoseMisfit& misfit,
-                      const Typical& typical, std::size_t pose) {
+                      const PoseMisfit& typical, std::size_t pose) {
   const SideFigures sides =
       figures_of(triangulate_board(without.rig.calibration, problem.board, problem.poses[pose]).sides);
   if (std::abs(sides.error_percent) > other_board_percent && sides.spread_percent < other_board_percent)
-    return "its squares measure " + text(problem.board.square_mm * (1 + sides.error_percent / 100), 2) +
-           " mm, not " + text(problem.board.square_mm, 2) +
+    return "its squares measure " + fixed_text(problem.board.square_mm * (1 + sides.error_percent / 100), 2) +
+           " mm, not " + fixed_text(problem.board.square_mm, 2) +
            ": another board, or the board moved between the pictures";
   const double alone_px = camera_misfit_alone(problem, without, pose);
   if (alone_px > disagreeing * typical.camera_px)
-    return "its printed corners lie " + text(alone_px, 2) + " px off a flat board (" +
-           text(typical.camera_px, 2) + " px in other poses): bent, blurred, or another board";
-  return "camera and projector disagree by " + text(misfit.projector_px, 2) + " px (" +
-         text(typical.projector_px, 2) + " px in other poses): the board moved between the pictures";
+    return "its printed corners lie " + fixed_text(alone_px, 2) + " px off a flat board (" +
+           fixed_text(typical.camera_px, 2) + " px in other poses): bent, blurred, or another board";
+  return "camera and projector disagree by " + fixed_text(misfit.projector_px, 2) + " px (" +
+         fixed_text(typical.projector_px, 2) + " px in other poses): the board moved " +
+         (problem.poses[pose].projected.empty()
+              ? "during the sequence"
+              : "between the pictures, or the projector showed something else");
 }
 
 }  // namespace
@@ -117,15 +101,28 @@ PoseMisfit misfit_of_pose(const AdjustmentProblem& problem, const Adjustment& fi
   return misfit_at(problem, fitted.rig.calibration, fitted.rig.camera_from_board[pose], pose);
 }
 
+double surprise_of(const AdjustmentProblem& problem, const Adjustment& without, std::size_t pose,
+                   const PoseMisfit& misfit, const PoseMisfit& typical) {
+  // The residuals' expected squares, in variances: their own, and what the devices' uncertainty adds, at
+  // worst all of it to one device.
+  const PoseObservation& seen = problem.poses[pose];
+  const auto own = 2 * static_cast<double>(std::min(camera_count(seen), projector_count(seen)));
+  const double added = (covariance_of(without) *
+                        information_of_pose(problem, without.rig.calibration, misfit.camera_from_board, seen,
+                                            without.camera_sigma_px, without.projector_sigma_px))
+                           .trace();
+  return ratio(misfit, typical) / std::sqrt(1 + std::max(0.0, added) / std::max(own, 1.0));
+}
+
 std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit) {
   std::vector<std::string> reasons(problem.poses.size());
   while (std::ranges::count(problem.used, true) > fewest_poses) {
-    const Typical typical = typical_misfit(problem, fit, problem.poses.size());
-    double worst_ratio = 0;
+    const PoseMisfit typical = typical_misfit(problem, fit, problem.poses.size());
+    double worst_surprise = 0;
     std::size_t worst = 0;
     Adjustment best_without;
     PoseMisfit worst_misfit;
-    Typical worst_typical{};
+    PoseMisfit worst_typical;
     for (std::size_t i = 0; i < problem.poses.size(); ++i) {
       if (!problem.used[i]) continue;
       const PoseMisfit here = misfit_at(problem, fit.rig.calibration, fit.rig.camera_from_board[i], i);
@@ -134,15 +131,16 @@ std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjus
       others.used[i] = false;
       const Adjustment without = adjust(others, fit.rig);
       const PoseMisfit misfit = misfit_of_pose(problem, without, i);
-      const Typical rest = typical_misfit(problem, without, i);
-      if (ratio(misfit, rest) <= worst_ratio) continue;
-      worst_ratio = ratio(misfit, rest);
+      const PoseMisfit rest = typical_misfit(problem, without, i);
+      const double surprise = surprise_of(problem, without, i, misfit, rest);
+      if (surprise <= worst_surprise) continue;
+      worst_surprise = surprise;
       worst = i;
       best_without = without;
       worst_misfit = misfit;
       worst_typical = rest;
     }
-    if (worst_ratio < disagreeing) break;
+    if (worst_surprise < disagreeing) break;
     reasons[worst] = reason_of(problem, best_without, worst_misfit, worst_typical, worst);
     problem.used[worst] = false;
     fit = best_without;

@@ -7,6 +7,10 @@
 
 namespace bodyscan {
 
+constexpr int fewest_poses = 3;
+constexpr double disagreeing = 4;         // times what the other poses have
+constexpr double least_misfit_px = 0.03;  // less is nothing to complain of
+
 // A pose's residuals under a calibration, its own board pose fitted to them: root mean square of the lengths,
 // px.
 struct PoseMisfit {
@@ -16,9 +20,14 @@ struct PoseMisfit {
 };
 PoseMisfit misfit_of_pose(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t pose);
 
-// Leaves out poses that do not agree with the rest: those whose misfit, under a calibration from the others,
-// is several times theirs. Returns a reason a pose, empty for those that stay; problem.used and `fit` follow.
-// At least three poses stay.
+// How many times larger a pose's misfit under a calibration without it is than expected: of corners as
+// uncertain as `typical` says, seen with devices as uncertain as that calibration leaves them.
+double surprise_of(const AdjustmentProblem& problem, const Adjustment& without, std::size_t pose,
+                   const PoseMisfit& misfit, const PoseMisfit& typical);
+
+// Leaves out poses that do not agree with the rest: those that surprise a calibration from the others.
+// Returns a reason a pose, empty for those that stay; problem.used and `fit` follow. At least three poses
+// stay.
 std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit);
 
 }  // namespace bodyscan

@@ -57,11 +57,6 @@ Shape frustum_base(const Lens& lens, const RigidTransform& camera_from_lens, dou
   return base;
 }
 
-RigidTransform inverse(const RigidTransform& transform) {
-  const Eigen::Matrix3d back = transform.rotation.transpose();
-  return {back, -back * transform.translation};
-}
-
 // The outer squares' rim of every board whose pose is known, the farthest first.
 std::vector<BoardShape> board_shapes(const std::vector<PoseReport>& poses, const PrintedBoard& board) {
   const double left = -board.square_mm;
@@ -181,7 +176,7 @@ void draw_axes(SvgPicture& sheet, const View& view, const Vector2d& place) {
 std::string pose_plot(const CalibrationReport& report, const Calibration& calibration,
                       const PrintedBoard& board) {
   const std::vector<BoardShape> boards = board_shapes(report.poses, board);
-  const RigidTransform camera_from_projector = inverse(calibration.projector_from_camera);
+  const RigidTransform camera_from_projector = calibration.projector_from_camera.inverse();
   const Vector3d camera = Vector3d::Zero();
   const Vector3d projector = camera_from_projector.translation;
   double farthest = 500;

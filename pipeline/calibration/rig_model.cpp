@@ -78,6 +78,10 @@ Vector2d residual_of(const Lens& lens, const Vector3d& point, const Vector2d& me
 
 }  // namespace
 
+int position_in(const ParameterMask& mask, int parameter) {
+  return static_cast<int>((mask << static_cast<std::size_t>(shared_parameters - parameter)).count());
+}
+
 std::string parameter_name(int parameter) {
   if (parameter < 2 * lens_parameters)
     return std::string(parameter < lens_parameters ? "camera " : "projector ") +

@@ -38,6 +38,9 @@ constexpr int extrinsic_parameter(int index) {
 
 using ParameterMask = std::bitset<shared_parameters>;
 
+// Position of a parameter among those that are in the mask.
+int position_in(const ParameterMask& mask, int parameter);
+
 std::string parameter_name(int parameter);
 double parameter_value(const Calibration& calibration, int parameter);  // rotations: 0, they are increments
 

@@ -152,9 +152,10 @@ FloatImage gaussian_blur(const FloatImage& image, float sigma_px) {
 }
 
 std::vector<SaddlePoint> find_saddle_points(const FloatImage& image, const SaddleOptions& options) {
+  const int border = static_cast<int>(std::ceil(options.ring_px)) + 1;
+  if (std::min(image.width(), image.height()) <= 2 * border) return {};
   const FloatImage smooth = gaussian_blur(image, options.blur_px);
   const Size size = smooth.size();
-  const int border = static_cast<int>(std::ceil(options.ring_px)) + 1;
   FloatImage saddle(size, 0);
   parallel_for(1, size.height - 1, rows_a_task, [&](int first, int last) {
     for (int y = first; y < last; ++y)

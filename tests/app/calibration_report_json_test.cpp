@@ -28,16 +28,21 @@ CalibrationReport sample_calibration_report() {
   report.camera_rms_px = 0.25;
   report.projector_rms_px = 0.5;
   report.joint_rms_px = 0.375;
+  report.corners = 126;
+  report.corners_left_out = 5;
+  report.all_camera_rms_px = 0.5;
+  report.all_projector_rms_px = 0.75;
   report.leave_one_out_camera_px = 1;
   report.leave_one_out_projector_px = 2;
   report.square_error_percent = -0.125;
   report.square_spread_percent = 0.75;
   report.leave_one_out_square_error_percent = 0.0625;
-  report.parameters = {{"camera fx", 5500.5, 0.5}, {"camera k3", 0, std::nullopt}};
+  report.parameters = {{"camera fx", 5500.5, 0.5}, {"camera k3", 0, std::nullopt, false}};
   PoseReport pose;
   pose.name = "pose 0";
   pose.used = false;
   pose.reason = "too dark";
+  pose.notes = {"held aslant"};
   pose.camera_rms_px = 3;
   pose.projector_rms_px = 4;
   pose.distance_mm = 800;
@@ -57,6 +62,7 @@ TEST(CalibrationReportJson, HoldsEverythingUnderItsKey) {
                                             {"bodyscan 1.2.3", {{"open", 1.5}, {"calibrate", 20}}}));
   EXPECT_EQ(json, nlohmann::ordered_json::parse(R"json({
     "camera_rms_px": 0.25, "projector_rms_px": 0.5, "joint_rms_px": 0.375,
+    "corners": 126, "corners_left_out": 5, "all_camera_rms_px": 0.5, "all_projector_rms_px": 0.75,
     "leave_one_out_camera_px": 1.0, "leave_one_out_projector_px": 2.0,
     "square_error_percent": -0.125, "square_spread_percent": 0.75, "leave_one_out_square_error_percent": 0.0625,
     "advice": ["tilt the board more"],
@@ -69,10 +75,10 @@ TEST(CalibrationReportJson, HoldsEverythingUnderItsKey) {
                                 "translation_mm": [3.0, 4.0, 0.0]},
       "baseline_mm": 5.0
     },
-    "parameters": [{"name": "camera fx", "value": 5500.5, "sigma": 0.5},
-                   {"name": "camera k3", "value": 0.0, "sigma": null}],
+    "parameters": [{"name": "camera fx", "value": 5500.5, "sigma": 0.5, "estimated": true},
+                   {"name": "camera k3", "value": 0.0, "sigma": null, "estimated": false}],
     "poses": [{
-      "name": "pose 0", "used": false, "reason": "too dark", "camera_rms_px": 3.0, "projector_rms_px": 4.0,
+      "name": "pose 0", "used": false, "reason": "too dark", "notes": ["held aslant"], "camera_rms_px": 3.0, "projector_rms_px": 4.0,
       "distance_mm": 800.0, "tilt_degrees": 20.0, "plane_rms_mm": 0.5,
       "camera_from_board": {"rotation": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                             "translation_mm": [1.0, 2.0, 800.0]},
@@ -94,6 +100,17 @@ TEST(CalibrationReportJson, NumbersThatAreNoneBecomeNull) {
   EXPECT_TRUE(json["leave_one_out_camera_px"].is_null());
   EXPECT_TRUE(json["parameters"][0]["sigma"].is_null());
   EXPECT_TRUE(json["poses"][0]["camera"][0]["error"][0].is_null());
+}
+
+TEST(CalibrationReportJson, WhatIsNotKnownIsNull) {
+  CalibrationReport report = sample_calibration_report();
+  report.leave_one_out_projector_px.reset();
+  report.poses[0].located = false;
+  const auto json = nlohmann::json::parse(to_json(report, sample_calibration(), {}));
+  EXPECT_TRUE(json["leave_one_out_projector_px"].is_null());
+  for (const char* key : {"camera_rms_px", "projector_rms_px", "distance_mm", "tilt_degrees", "plane_rms_mm",
+                          "camera_from_board"})
+    EXPECT_TRUE(json["poses"][0][key].is_null()) << key;
 }
 
 TEST(CalibrationReportJson, AReportOfNothingHasEmptyLists) {

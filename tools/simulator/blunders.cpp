@@ -15,11 +15,12 @@ Vector3d middle_of(const SessionPose& pose) {
 
 // Moves the sheet to the left until a quarter of its width is outside the picture.
 void cut(const Calibration& calibration, SessionPose& pose) {
-  const Vector3d middle = middle_of(pose);
   const Lens& camera = calibration.camera;
-  const Vector3d across = pose.first_camera_from_board.rotation.col(0) * pose.sheet.half_sheet().x();
-  const double border = camera.ray({-0.5, (camera.size.height - 1) / 2.0}).x() * middle.z();
-  const Vector3d step(border + across.x() / 2 - middle.x(), 0, 0);
+  const Eigen::Vector2d quarter =
+      pose.sheet.middle() - pose.sheet.half_sheet().x() / 2 * Eigen::Vector2d::UnitX();
+  const Vector3d there = pose.first_camera_from_board * pose.sheet.point(quarter);
+  const double border = camera.ray({-0.5, camera.project(there).y()}).x() * there.z();
+  const Vector3d step(border - there.x(), 0, 0);
   pose.first_camera_from_board.translation += step;
   pose.second_camera_from_board.translation += step;
 }
@@ -31,7 +32,8 @@ void move(SessionPose& pose) {
   const Vector3d step = distance_mm * Vector3d(2, 1, 2).normalized();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d(1, 1, 1).normalized()).toRotationMatrix();
   const RigidTransform& first = pose.first_camera_from_board;
-  pose.second_camera_from_board = {turn * first.rotation, turn * (first.translation - middle) + middle + step};
+  pose.second_camera_from_board = {turn * first.rotation,
+                                   turn * (first.translation - middle) + middle + step};
 }
 
 // Another board in the same place.

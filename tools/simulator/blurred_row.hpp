@@ -6,8 +6,8 @@
 namespace bodyscan::simulator {
 
 // A row (or column) of projector pixels as light: boxes of one pixel with hard edges half way between pixel
-// centres, convolved exactly with a Gaussian. Tabulated 32 times a pixel and interpolated linearly (error below
-// 2e-4 from 0.5 px of blur on). Beyond the picture's edge the outermost pixel goes on.
+// centres, convolved exactly with a Gaussian. Tabulated 32 times a pixel and interpolated linearly (error
+// below 2e-4 from 0.5 px of blur on). Beyond the picture's edge the outermost pixel goes on.
 class BlurredRow {
  public:
   // `defocus` blurs all light; `scattered` (>= defocus) is the blur of the light that scattered under the

@@ -18,20 +18,24 @@ struct Arguments {
 void add_board_options(CLI::App& command, SessionOptions& options) {
   command.add_option("--columns", options.board.columns, "inner corners of the printed board")
       ->capture_default_str();
-  command.add_option("--rows", options.board.rows, "inner corners of the printed board")->capture_default_str();
+  command.add_option("--rows", options.board.rows, "inner corners of the printed board")
+      ->capture_default_str();
   command.add_option("--square-mm", options.board.square_mm, "side of the printed board's squares")
       ->capture_default_str();
   command
-      .add_option("--bend", options.bend_mm,
-                  "mm that the sheet's left and right edges go back behind its middle; negative: come forward")
+      .add_option(
+          "--bend", options.bend_mm,
+          "mm that the sheet's left and right edges go back behind its middle; negative: come forward")
       ->capture_default_str();
   command
-      .add_option("--plate", options.plate_mm,
-                  "mm of white plate beyond the sheet, for the projected board to fall on; projected poses only")
+      .add_option(
+          "--plate", options.plate_mm,
+          "mm of white plate beyond the sheet, for the projected board to fall on; projected poses only")
       ->capture_default_str();
   command
       .add_option("--projected-share", options.projected_share,
-                  "of the projector's picture's sides that the projected board's squares span; less where the camera would "
+                  "of the projector's picture's sides that the projected board's squares span; less where "
+                  "the camera would "
                   "not see all of them")
       ->capture_default_str();
 }
@@ -50,10 +54,11 @@ void add_pose_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--poses", arguments.options.poses, "how often the board is shot, up to 14 times")
       ->capture_default_str();
   command
-      .add_option("--blunder", arguments.blunders,
-                  "POSE:KIND, a pose (from 0) that goes wrong: cut (partly outside the picture), moved (by 4 mm and "
-                  "1 degree after the first picture), blurred (5 px more), size (a column less), scaled (4 % larger "
-                  "squares), dark (2 % of the light after the first picture), overexposed (6 times the light)")
+      .add_option(
+          "--blunder", arguments.blunders,
+          "POSE:KIND, a pose (from 0) that goes wrong: cut (partly outside the picture), moved (by 4 mm and "
+          "1 degree after the first picture), blurred (5 px more), size (a column less), scaled (4 % larger "
+          "squares), dark (2 % of the light after the first picture), overexposed (6 times the light)")
       ->delimiter(',');
 }
 
@@ -87,10 +92,10 @@ void add_calibration_command(CLI::App& app, Action& action) {
   add_light_options(command, render);
   add_camera_options(command, render);
   command.footer(
-      "Beside session.json: calibration.yml, the true calibration, and truth/session.json, every pose's true\n"
+      "Beside session.json: calibration.yml, the true calibration, and truth/session.json, every pose's "
+      "true\n"
       "camera_from_board and the true pixels of all corners.");
-  command.callback(
-      [arguments, &action] { action = [arguments] { return run(*arguments); }; });
+  command.callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
 }  // namespace bodyscan::simulator

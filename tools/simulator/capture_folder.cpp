@@ -5,6 +5,7 @@
 #include "tools/simulator/frame_file.hpp"
 #include "tools/simulator/image_files.hpp"
 #include "tools/simulator/json_values.hpp"
+#include "tools/simulator/option_range.hpp"
 #include "tools/simulator/sensor.hpp"
 #include "tools/simulator/skin.hpp"
 #include "tools/simulator/subjects.hpp"
@@ -163,8 +164,7 @@ Expected<void> write_truth(const fs::path& folder, const Truth& truth, const Ren
       .and_then([&] { return write_pfm(folder / "rows.pfm", maps.rows); })
       .and_then([&] { return write_pfm(folder / "columns.pfm", maps.columns); })
       .and_then([&] { return write_png(folder / "reachable.png", maps.reachable); })
-      .and_then(
-          [&] { return write_json(folder / "scene.json", scene_json(truth.scene, options)); })
+      .and_then([&] { return write_json(folder / "scene.json", scene_json(truth.scene, options)); })
       .and_then([&] {
         return options.write_mesh ? write_mesh(folder / "mesh.obj", truth.scene) : Expected<void>{};
       });
@@ -172,8 +172,8 @@ Expected<void> write_truth(const fs::path& folder, const Truth& truth, const Ren
 
 }  // namespace
 
-Expected<void> write_capture(const fs::path& folder, const PatternSequence& sequence, const Photograph& photograph,
-                             const RenderOptions& options) {
+Expected<void> write_capture(const fs::path& folder, const PatternSequence& sequence,
+                             const Photograph& photograph, const RenderOptions& options) {
   std::mutex mutex;
   std::optional<Error> failure;
   parallel_for(0, static_cast<int>(sequence.patterns.size()), 1, [&](int index, int) {
@@ -187,18 +187,16 @@ Expected<void> write_capture(const fs::path& folder, const PatternSequence& sequ
 }
 
 Expected<Truth> render_capture(const RenderOptions& options) {
-  if (options.output.empty()) return tl::unexpected(Error{ErrorKind::usage, "--output: needs a folder"});
+  if (options.output.empty()) return usage_error("--output: needs a folder");
   Expected<Scene> scene = make_scene(options);
   if (!scene) return tl::unexpected(scene.error());
   const Expected<PatternSequence> sequence =
       make_sequence(scene->calibration.projector.size, options.sequence);
   if (!sequence) return tl::unexpected(sequence.error());
-  std::error_code problem;
-  fs::create_directories(options.output / "truth", problem);
-  if (problem) return output_error(options.output.string() + ": " + problem.message());
-
   Truth truth{std::move(*scene), {}};
-  Expected<void> written = write_calibration(truth.scene.calibration, options.output / "calibration.yml");
+  Expected<void> written = make_folder(options.output / "truth").and_then([&] {
+    return write_calibration(truth.scene.calibration, options.output / "calibration.yml");
+  });
   if (!written) return tl::unexpected(written.error());
   Expected<Renderer> renderer = Renderer::make(truth.scene, options);
   if (!renderer) return tl::unexpected(renderer.error());

@@ -17,8 +17,8 @@ struct Truth {
 // What the camera takes of a pattern as the frame of this index. Called from several threads.
 using Photograph = std::function<ColorImage8(const Pattern& pattern, int index)>;
 
-// Takes every pattern of the sequence into an existing folder, with the capture.json that tells them apart. The
-// options give the files' format.
+// Takes every pattern of the sequence into an existing folder, with the capture.json that tells them apart.
+// The options give the files' format.
 Expected<void> write_capture(const std::filesystem::path& folder, const PatternSequence& sequence,
                              const Photograph& photograph, const RenderOptions& options);
 

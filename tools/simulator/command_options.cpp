@@ -45,8 +45,9 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--defocus", options.defocus, "projector blur, standard deviation in projector px")
       ->capture_default_str();
   command
-      .add_option("--uneven-light", options.uneven_light,
-                  "share of the projector's light lost in its picture's last corner, falling linearly from the first")
+      .add_option(
+          "--uneven-light", options.uneven_light,
+          "share of the projector's light lost in its picture's last corner, falling linearly from the first")
       ->capture_default_str();
   command
       .add_option(

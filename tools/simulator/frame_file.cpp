@@ -4,6 +4,13 @@
 
 namespace bodyscan::simulator {
 
+Expected<void> make_folder(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  if (problem) return output_error(folder.string() + ": " + problem.message());
+  return {};
+}
+
 std::string extension(FrameFormat format) {
   return format == FrameFormat::jpeg ? ".jpg" : ".png";
 }

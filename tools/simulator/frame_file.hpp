@@ -7,6 +7,9 @@
 
 namespace bodyscan::simulator {
 
+// With the folders above it; no error where it exists.
+Expected<void> make_folder(const std::filesystem::path& folder);
+
 // ".jpg" or ".png".
 std::string extension(FrameFormat format);
 

@@ -31,7 +31,8 @@ void pad(const float* row, int width, int reach, std::vector<float>& padded) {
   std::copy_n(row, width * channels, padded.begin() + reach * channels);
   for (int i = 0; i < reach * channels; ++i) {
     padded[static_cast<std::size_t>(i)] = row[i % channels];
-    padded[static_cast<std::size_t>((reach + width) * channels + i)] = row[(width - 1) * channels + i % channels];
+    padded[static_cast<std::size_t>((reach + width) * channels + i)] =
+        row[(width - 1) * channels + i % channels];
   }
 }
 

@@ -86,7 +86,8 @@ std::optional<Vector2d> PrintedSheet::hit(const Vector3d& origin, const Vector3d
     along -= behind / (direction.z() - sine / cosine * direction.x());
   }
   const Vector2d at = paper(origin + along * direction);
-  if (!(along > 0) || !(((at - middle_).cwiseAbs().array() <= half_plate_.array()).all())) return std::nullopt;
+  if (!(along > 0) || !(((at - middle_).cwiseAbs().array() <= half_plate_.array()).all()))
+    return std::nullopt;
   return at;
 }
 
@@ -97,7 +98,8 @@ float PrintedSheet::albedo(const Vector2d& paper) const {
                        turns(paper.y() / board_.square_mm, board_.rows, edge / board_.square_mm);
   const double ink = cover(paper, middle_, squares, edge) * (1 + sides) / 2;
   const auto printed = paper_albedo + static_cast<float>(ink) * (ink_albedo - paper_albedo);
-  return plate_albedo + static_cast<float>(cover(paper, middle_, half_sheet_, edge)) * (printed - plate_albedo);
+  return plate_albedo +
+         static_cast<float>(cover(paper, middle_, half_sheet_, edge)) * (printed - plate_albedo);
 }
 
 }  // namespace bodyscan::simulator

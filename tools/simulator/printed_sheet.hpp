@@ -16,13 +16,13 @@ struct SheetForm {
   // (negative: come forward): the sheet is a cylinder about an axis along the rows' direction. 0: flat.
   double bend_mm = 0;
   double plate_mm = 0;  // white plate that the sheet lies on, beyond the sheet on every side
-  double edge_mm = 0;   // over which an edge of ink or paper fades linearly, its middle where the edge belongs
+  double edge_mm = 0;  // over which an edge of ink or paper fades linearly, its middle where the edge belongs
 };
 
-// A chessboard of (columns + 1) x (rows + 1) squares, the top left one black, with a white margin of one square.
-// Board frame (mm): origin at inner corner (0, 0), x along the columns, y along the rows, z away from the viewer.
-// Paper coordinates (mm) run along the paper and are the board frame's x and y where the sheet is flat; a bent
-// sheet touches the flat one's plane along its middle.
+// A chessboard of (columns + 1) x (rows + 1) squares, the top left one black, with a white margin of one
+// square. Board frame (mm): origin at inner corner (0, 0), x along the columns, y along the rows, z away from
+// the viewer. Paper coordinates (mm) run along the paper and are the board frame's x and y where the sheet is
+// flat; a bent sheet touches the flat one's plane along its middle.
 class PrintedSheet {
  public:
   PrintedSheet(const PrintedBoard& board, const SheetForm& form);

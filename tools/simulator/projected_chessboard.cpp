@@ -56,7 +56,8 @@ ProjectedChessboard::ProjectedChessboard(const ProjectedBoard& board, Size proje
       side_rows_(along_rows(board, projector).sides(), defocus, scattered) {
   const float squares =
       sum(along_columns(board, projector).inside()) * sum(along_rows(board, projector).inside());
-  const float sides = sum(along_columns(board, projector).sides()) * sum(along_rows(board, projector).sides());
+  const float sides =
+      sum(along_columns(board, projector).sides()) * sum(along_rows(board, projector).sides());
   mean_ = 1 - (squares + sides) / 2 / static_cast<float>(projector.area());
 }
 
@@ -67,7 +68,9 @@ ProjectedBoard fit_projected_board(Size projector, int columns, int rows, double
   ProjectedBoard board{columns, rows, Eigen::Vector2d::Zero(), 0};
   if (square < smallest_square_px) return board;
   board.square_px = square;
-  const auto first = [&](int length, int corners) { return (length - (corners + 1) * square) / 2 + square - 0.5; };
+  const auto first = [&](int length, int corners) {
+    return (length - (corners + 1) * square) / 2 + square - 0.5;
+  };
   board.first_corner_px = {first(projector.width, columns), first(projector.height, rows)};
   return board;
 }

@@ -33,7 +33,9 @@ void add_subject_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option_function<std::vector<double>>(
           "--motion",
-          [&options](const std::vector<double>& step) { options.motion = {step[0], step[1], step[2]}; },
+          [&options](const std::vector<double>& step) {
+            options.motion = {step[0], step[1], step[2]};
+          },
           "mm the subject moves from frame to frame: X,Y,Z (the truth is the first frame's)")
       ->delimiter(',')
       ->expected(3);
@@ -62,7 +64,8 @@ void add_render_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App& command = *app.add_subcommand("render", "Render a capture folder and the truth beside it");
   add_subject_options(command, *options);
-  command.add_option("--calibration", options->calibration, "FILE.yml or builtin:RIG (rows, columns, diagonal)")
+  command
+      .add_option("--calibration", options->calibration, "FILE.yml or builtin:RIG (rows, columns, diagonal)")
       ->required();
   command.add_option("--output", options->output, "the capture folder")->required();
   add_rig_options(command, options->rig);

@@ -34,8 +34,8 @@ struct RenderOptions {
   double defocus = 0.55;     // projector px, standard deviation
   double subsurface = -1;    // share of green light that scatters; negative: 0.5 for skin, 0 else
   double subsurface_blur = 2.4;  // projector px, standard deviation
-  double uneven_light = 0;       // share of the projector's light that is lost at its picture's last pixel, falling
-                                 // linearly from none at the first
+  double uneven_light = 0;       // share of the projector's light that is lost at its picture's last pixel,
+                                 // falling linearly from none at the first
   int rays = 2;                  // a side of the pixel
   double lens_blur = 0;          // camera px, standard deviation
 

@@ -207,7 +207,8 @@ Renderer::Lit Renderer::light(const Samples& samples, const Shown& shown, float 
       for (int x = 0; x < lit.light.width(); ++x) {
         std::array<float, 3> sum{};
         if (lit.left + x >= first && lit.left + x < last) {
-          const SubRay* ray = samples.rays.row(lit.top + y) + static_cast<std::ptrdiff_t>(lit.left + x) * rays;
+          const SubRay* ray =
+              samples.rays.row(lit.top + y) + static_cast<std::ptrdiff_t>(lit.left + x) * rays;
           for (int k = 0; k < rays; ++k, ++ray) {
             if (ray->hit == 0) continue;
             const BlurredRow::Value value = ray->direct > 0 ? shown(*ray) : BlurredRow::Value{};
@@ -237,7 +238,8 @@ ColorImage8 Renderer::expose(const Lit& lit, int index) const {
       const int last = any ? lit.left + lit.light.width() : image.width();
       auto pixel = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(image.width());
       for (int x = 0; x < image.width(); ++x, ++pixel)
-        image(x, y) = sensor.expose(x >= first && x < last ? light[x - first] : std::array<float, 3>{}, pixel);
+        image(x, y) =
+            sensor.expose(x >= first && x < last ? light[x - first] : std::array<float, 3>{}, pixel);
     }
   });
   return image;

@@ -34,7 +34,8 @@ struct TruthMaps {
 // Renders what the camera sees of each projected picture. Light, per channel:
 //   albedo * (direct * ((1 - s) p_sharp + s p_scattered) + reflection * mean(p) + ambient)
 // with p the projected picture over its black level, s the channel's scattered share, and direct the cosine
-// law over the squared distance, times the projector's unevenness. The lens blurs this light before the sensor.
+// law over the squared distance, times the projector's unevenness. The lens blurs this light before the
+// sensor.
 class Renderer {
  public:
   // `scene` must outlive the renderer. Without motion the rays are cast here, once.

@@ -47,7 +47,8 @@ Eigen::Matrix3d aim(const Vector3d& from, const Vector3d& to) {
 }  // namespace
 
 Expected<Calibration> make_rig(const RigOptions& options) {
-  if (!(options.scale >= 1.0 / 64 && options.scale <= 2)) return usage_error("--scale: must lie in 1/64 to 2");
+  if (!(options.scale >= 1.0 / 64 && options.scale <= 2))
+    return usage_error("--scale: must lie in 1/64 to 2");
   if (options.projector.width < 16 || options.projector.height < 16 || options.projector.width > 8192 ||
       options.projector.height > 8192)
     return usage_error("--projector: must lie in 16x16 to 8192x8192");

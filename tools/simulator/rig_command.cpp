@@ -12,8 +12,7 @@ void add_rig_command(CLI::App& app, Action& action) {
   };
   const auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *app.add_subcommand("rig", "Write the calibration of a built-in rig");
-  command
-      .add_option("--name", arguments->rig.name, "rows, columns or diagonal: where the projector stands")
+  command.add_option("--name", arguments->rig.name, "rows, columns or diagonal: where the projector stands")
       ->capture_default_str();
   add_rig_options(command, arguments->rig);
   command.add_option("--output", arguments->output, "the calibration file")->required();

@@ -60,8 +60,8 @@ Expected<Calibration> find_calibration(const std::string& name, RigOptions rig) 
   return calibration;
 }
 
-Scene place_subject(const Calibration& calibration, Subject subject, const RigidTransform& camera_from_subject,
-                    double scale) {
+Scene place_subject(const Calibration& calibration, Subject subject,
+                    const RigidTransform& camera_from_subject, double scale) {
   Scene scene;
   scene.calibration = calibration;
   scene.subject = std::move(subject);

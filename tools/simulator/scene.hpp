@@ -28,8 +28,8 @@ struct Scene {
 Expected<Calibration> find_calibration(const std::string& name, RigOptions rig);
 
 // `subject` before the rig; `camera_from_subject` acts on the scaled subject.
-Scene place_subject(const Calibration& calibration, Subject subject, const RigidTransform& camera_from_subject,
-                    double scale = 1);
+Scene place_subject(const Calibration& calibration, Subject subject,
+                    const RigidTransform& camera_from_subject, double scale = 1);
 
 // Checks the options, reads the calibration and the subject and places it.
 Expected<Scene> make_scene(const RenderOptions& options);

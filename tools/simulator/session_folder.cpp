@@ -15,20 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Expected<void> make_folder(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) return output_error(folder.string() + ": " + problem.message());
-  return {};
-}
-
 Expected<void> write_pair(const PoseCamera& camera, int number, const SessionTruth& truth,
                           const RenderOptions& options) {
   const Pattern white{.kind = PatternKind::white};
   return write_frame(options.output / printed_name(number, options.format), camera.take(white, 0), options)
       .and_then([&] {
-        return write_frame(options.output / projected_name(number, options.format), camera.take(truth.projected, 1),
-                           options);
+        return write_frame(options.output / projected_name(number, options.format),
+                           camera.take(truth.projected, 1), options);
       });
 }
 
@@ -40,7 +33,8 @@ Expected<void> write_gray(const PoseCamera& camera, int number, const SessionTru
   if (!sequence) return tl::unexpected(sequence.error());
   return make_folder(folder).and_then([&] {
     return write_capture(
-        folder, *sequence, [&](const Pattern& pattern, int index) { return camera.take(pattern, index); }, options);
+        folder, *sequence, [&](const Pattern& pattern, int index) { return camera.take(pattern, index); },
+        options);
   });
 }
 
@@ -50,9 +44,8 @@ Expected<SessionTruth> plan_session(const SessionOptions& options) {
   if (Expected<void> checked = options.check(); !checked) return tl::unexpected(checked.error());
   Expected<Calibration> calibration = find_calibration(options.render.calibration, options.render.rig);
   if (!calibration) return tl::unexpected(calibration.error());
-  Expected<ProjectedBoard> projected = options.method == SessionMethod::gray
-                                           ? ProjectedBoard{}
-                                           : plan_projected_board(options, *calibration);
+  Expected<ProjectedBoard> projected =
+      options.method == SessionMethod::gray ? ProjectedBoard{} : plan_projected_board(options, *calibration);
   if (!projected) return tl::unexpected(projected.error());
   Expected<std::vector<SessionPose>> poses = plan_poses(options, *calibration, *projected);
   if (!poses) return tl::unexpected(poses.error());

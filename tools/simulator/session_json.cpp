@@ -27,13 +27,16 @@ Json transform_json(const RigidTransform& transform) {
 }
 
 // Points of the camera frame as `lens` sees them.
-Json pixels_json(const std::vector<Eigen::Vector3d>& points, const Lens& lens, const RigidTransform& lens_from_camera) {
+Json pixels_json(const std::vector<Eigen::Vector3d>& points, const Lens& lens,
+                 const RigidTransform& lens_from_camera) {
   Json pixels = Json::array();
-  for (const Eigen::Vector3d& point : points) pixels.push_back(pixel_json(lens.project(lens_from_camera * point)));
+  for (const Eigen::Vector3d& point : points)
+    pixels.push_back(pixel_json(lens.project(lens_from_camera * point)));
   return pixels;
 }
 
-std::vector<Eigen::Vector3d> printed_corners(const PrintedSheet& sheet, const RigidTransform& camera_from_board) {
+std::vector<Eigen::Vector3d> printed_corners(const PrintedSheet& sheet,
+                                             const RigidTransform& camera_from_board) {
   std::vector<Eigen::Vector3d> corners;
   for (int i = 0; i < sheet.board().corner_count(); ++i)
     corners.push_back(camera_from_board * sheet.point(sheet.board().corner_mm(i)));
@@ -41,7 +44,7 @@ std::vector<Eigen::Vector3d> printed_corners(const PrintedSheet& sheet, const Ri
 }
 
 Json pose_json(const SessionPose& pose, const SessionTruth& truth) {
-  const auto& [calibration, projected_board, poses] = truth;
+  const Calibration& calibration = truth.calibration;
   const RigidTransform none;
   const auto corners = printed_corners(pose.sheet, pose.first_camera_from_board);
   Json blunders = Json::array();
@@ -64,8 +67,9 @@ Json pose_json(const SessionPose& pose, const SessionTruth& truth) {
   }
   if (pose.gray) return json;
   const auto projected =
-      projected_corners(calibration, projected_board, pose.sheet, pose.second_camera_from_board);
-  if (!projected.empty()) json["projected_corners_camera_px"] = pixels_json(projected, calibration.camera, none);
+      projected_corners(calibration, truth.projected, pose.sheet, pose.second_camera_from_board);
+  if (!projected.empty())
+    json["projected_corners_camera_px"] = pixels_json(projected, calibration.camera, none);
   return json;
 }
 

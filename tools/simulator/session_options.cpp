@@ -11,13 +11,14 @@
 namespace bodyscan::simulator {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Blunder>, 7> blunder_names{{{"cut", Blunder::cut},
-                                                                             {"moved", Blunder::moved},
-                                                                             {"blurred", Blunder::blurred},
-                                                                             {"size", Blunder::size},
-                                                                             {"scaled", Blunder::scaled},
-                                                                             {"dark", Blunder::dark},
-                                                                             {"overexposed", Blunder::overexposed}}};
+constexpr std::array<std::pair<std::string_view, Blunder>, 7> blunder_names{
+    {{"cut", Blunder::cut},
+     {"moved", Blunder::moved},
+     {"blurred", Blunder::blurred},
+     {"size", Blunder::size},
+     {"scaled", Blunder::scaled},
+     {"dark", Blunder::dark},
+     {"overexposed", Blunder::overexposed}}};
 
 }  // namespace
 
@@ -62,7 +63,7 @@ Expected<void> SessionOptions::check() const {
                     {"--square-mm", board.square_mm, 0.1, 1000},
                     {"--bend", bend_mm, -largest_bend, largest_bend},
                     {"--plate", plate_mm, 0, 1000},
-                    {"--projected-share", projected_share, 0.01, 1}});
+                    {"--projected-share", projected_share, smallest_projected_share, 1}});
   if (!in_range) return in_range;
   for (const PlantedBlunder& blunder : blunders) {
     if (blunder.pose < 0 || blunder.pose >= poses)

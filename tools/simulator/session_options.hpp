@@ -8,8 +8,8 @@
 
 namespace bodyscan::simulator {
 
-// How the projector's pixels are found on the board: by a Gray-code capture, by a projected chessboard, or by turns
-// (the first pose projected).
+// How the projector's pixels are found on the board: by a Gray-code capture, by a projected chessboard, or by
+// turns (the first pose projected).
 enum class SessionMethod { mixed, gray, projected };
 
 // What may go wrong with a pose.
@@ -36,15 +36,17 @@ Expected<PlantedBlunder> parse_blunder(const std::string& text);
 // Light that leaves white paper at 0.9 m below full scale, and the blur of a sharp lens.
 RenderOptions session_render_defaults();
 
+inline constexpr double smallest_projected_share = 0.1;
+
 // One simulated calibration session.
 struct SessionOptions {
-  RenderOptions render = session_render_defaults();  // calibration, light, camera, files; the output is the folder
+  RenderOptions render = session_render_defaults();  // its output is the session's folder
   SessionMethod method = SessionMethod::mixed;
   int poses = 7;
   PrintedBoard board{9, 7, 25};
-  double bend_mm = 0;    // see SheetForm
-  double plate_mm = 350;  // of projected poses: white plate beyond the sheet, for the projected board to fall on
-  double projected_share = 0.6;  // of the projector's picture's sides that the projected squares span, at most
+  double bend_mm = 0;            // see SheetForm
+  double plate_mm = 350;         // of projected poses: white plate beyond the sheet, for the projected board
+  double projected_share = 0.6;  // of the sides of the projector's picture, spanned by the squares at most
   std::vector<PlantedBlunder> blunders;
 
   [[nodiscard]] bool is_gray(int pose) const {

@@ -38,7 +38,7 @@ constexpr std::array<Stand, most_session_poses> stands{{{22, 8, 0, 1050, 0, 0},
                                                         {-30, -10, -4, 1150, -1, 0.5},
                                                         {15, 20, 9, 940, 1, 0}}};
 constexpr double room_to_slide = 0.95;  // of the way to one border: then along it
-constexpr double border = 0.01;  // of a picture's width that stays free
+constexpr double border = 0.01;         // of a picture's width that stays free
 
 bool in_picture(const Lens& lens, const Vector3d& point) {
   if (point.z() <= 0) return false;
@@ -61,7 +61,8 @@ bool sees_sheet(const Calibration& calibration, const PrintedSheet& sheet,
       const Vector2d way = Vector2d(i, j) / steps;
       const Vector3d point =
           camera_from_board * sheet.point(sheet.middle() + way.cwiseProduct(sheet.half_sheet()));
-      if (!in_picture(calibration.camera, point) || !in_picture(calibration.projector, rig * point)) return false;
+      if (!in_picture(calibration.camera, point) || !in_picture(calibration.projector, rig * point))
+        return false;
       if (front.dot((projector_center - point).normalized()) < smallest_cosine ||
           front.dot(-point.normalized()) < smallest_cosine)
         return false;
@@ -71,8 +72,8 @@ bool sees_sheet(const Calibration& calibration, const PrintedSheet& sheet,
 }
 
 // Whether the camera sees all of the projected squares, on sheet and plate.
-bool sees_projected(const Calibration& calibration, const ProjectedBoard& projected, const PrintedSheet& sheet,
-                    const RigidTransform& camera_from_board) {
+bool sees_projected(const Calibration& calibration, const ProjectedBoard& projected,
+                    const PrintedSheet& sheet, const RigidTransform& camera_from_board) {
   const ProjectedBoard outer{projected.columns + 2, projected.rows + 2,
                              projected.first_corner_px.array() - projected.square_px, projected.square_px};
   const auto corners = projected_corners(calibration, outer, sheet, camera_from_board);
@@ -100,9 +101,10 @@ Matrix3d rotation_of(const Stand& stand) {
       .toRotationMatrix();
 }
 
-// With the sheet's middle on the ray of the pixel that lies `way` (1: all) of the stand's way to the picture's
-// borders.
-RigidTransform placed(const Stand& stand, const Vector2d& way, const Lens& camera, const PrintedSheet& sheet) {
+// With the sheet's middle on the ray of the pixel that lies `way` (1: all) of the stand's way to the
+// picture's borders.
+RigidTransform placed(const Stand& stand, const Vector2d& way, const Lens& camera,
+                      const PrintedSheet& sheet) {
   const Eigen::Array2d half(camera.size.width / 2.0, camera.size.height / 2.0);
   const Vector2d pixel = half - 0.5 + half * way.array() * Eigen::Array2d(stand.right, stand.down);
   RigidTransform pose{rotation_of(stand), {}};
@@ -142,7 +144,6 @@ std::vector<Vector3d> projected_corners(const Calibration& calibration, const Pr
 Expected<ProjectedBoard> plan_projected_board(const SessionOptions& options, const Calibration& calibration) {
   constexpr int columns = 9;
   constexpr int rows = 7;
-  constexpr double smallest_share = 0.1;
   const auto seen = [&](const ProjectedBoard& board) {
     for (int i = 0; i < options.poses; ++i) {
       const PrintedSheet sheet = sheet_of(i, options, calibration);
@@ -151,7 +152,7 @@ Expected<ProjectedBoard> plan_projected_board(const SessionOptions& options, con
     }
     return true;
   };
-  for (double share = options.projected_share; share > smallest_share; share *= 0.97) {
+  for (double share = options.projected_share; share >= smallest_projected_share; share *= 0.97) {
     const ProjectedBoard board = fit_projected_board(calibration.projector.size, columns, rows, share);
     if (board.square_px == 0) break;
     if (seen(board)) return board;
@@ -178,8 +179,14 @@ Expected<std::vector<SessionPose>> plan_poses(const SessionOptions& options, con
     way = room_to_slide * farthest(way, Vector2d(1, 1), seen);
     way = farthest(way, (1 - way.x()) * Vector2d::UnitX(), seen);
     way = farthest(way, (1 - way.y()) * Vector2d::UnitY(), seen);
-    poses.push_back({gray, sheet, at(way), at(way), options.render.light, options.render.light,
-                     options.render.lens_blur, {}});
+    poses.push_back({gray,
+                     sheet,
+                     at(way),
+                     at(way),
+                     options.render.light,
+                     options.render.light,
+                     options.render.lens_blur,
+                     {}});
   }
   return poses;
 }

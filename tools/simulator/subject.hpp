@@ -64,7 +64,8 @@ struct Subject {
   TriangleMesh mesh;
   Facts facts;
   Material material = Material::matt;
-  std::optional<PrintedSheet> sheet = std::nullopt;  // of a printed subject, whose frame is the sheet's board frame
+  std::optional<PrintedSheet> sheet =
+      std::nullopt;  // of a printed subject, whose frame is the sheet's board frame
 };
 
 }  // namespace bodyscan::simulator

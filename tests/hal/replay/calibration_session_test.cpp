@@ -137,10 +137,10 @@ TEST_F(CalibrationSessionTest, LoadNoticesWhatChangedSinceOpen) {
   ASSERT_TRUE(session) << session.error().message;
   write_picture("p0", 0, {9, 4});
   EXPECT_EQ(session->load_printed(0).error().message,
-            "pose 0: " + path("p0") + ": 9 x 4 pixels, while " + path("p0") + " has 8 x 4");
+            path("p0") + ": 9 x 4 pixels, while " + path("p0") + " has 8 x 4");
   fs::resize_file(folder_ / "q2", 40);
   EXPECT_EQ(session->load_projected(2).error().message,
-            "pose 2: " + path("q2") + ": damaged PNG: the file ends early");
+            path("q2") + ": damaged PNG: the file ends early");
 }
 
 }  // namespace

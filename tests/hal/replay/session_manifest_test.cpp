@@ -15,7 +15,7 @@ constexpr std::string_view good = R"({
   "poses": [
     {"printed": "a.jpg", "projected": "b.jpg", "note": "by the door"},
     {"capture": "pose_1"},
-    {"printed": "a.jpg", "projected": "b.jpg"}
+    {"printed": "a.jpg", "projected": "c.jpg"}
   ]
 })";
 
@@ -33,7 +33,7 @@ std::string message(const std::string& text) {
 
 std::string with_poses(int count) {
   std::string poses;
-  for (int i = 0; i < count; ++i) poses += std::string(i ? "," : "") + R"({"capture": "same"})";
+  for (int i = 0; i < count; ++i) poses += std::string(i ? "," : "") + R"({"capture": "pose_)" + std::to_string(i) + "\"}";
   return R"({"format": "bodyscan-calibration-session", "version": 1,
     "board": {"columns": 3, "rows": 100, "square_mm": 999.9}, "projector": {"width": 2, "height": 2},
     "poses": [)" +
@@ -64,7 +64,7 @@ TEST(ParseSession, ReadsEveryKey) {
   EXPECT_EQ(session->poses[2].printed, "a.jpg");
 }
 
-TEST(ParseSession, CapturesNeedNoProjectedBoardAndPosesMayRepeat) {
+TEST(ParseSession, CapturesNeedNoProjectedBoard) {
   EXPECT_EQ(message(with_poses(1)), "accepted");
   EXPECT_EQ(message(with_poses(200)), "accepted");
 }
@@ -104,7 +104,8 @@ constexpr Damage damages[] = {
     {", \"square_mm\": 25.5", "", "board.square_mm: missing"},
     {"25.5", "0", "board.square_mm: must be positive"},
     {"25.5", "-25", "board.square_mm: must be positive"},
-    {"25.5", "1000", "board.square_mm: must be under 1000"},
+    {"25.5", "1000", "board.square_mm: must be 0.1 to 1000"},
+    {"25.5", "0.09", "board.square_mm: must be 0.1 to 1000"},
     {"25.5", "\"25 mm\"", "board.square_mm: not a number"},
     // the projected board
     {"\"projected_board\"", "\"beamed_board\"",
@@ -116,6 +117,7 @@ constexpr Damage damages[] = {
     {"[212.5, 134]", "{\"x\": 1, \"y\": 2}", "projected_board.first_corner_px: not an array of two numbers"},
     {"\"first_corner_px\": [212.5, 134], ", "", "projected_board.first_corner_px: missing"},
     {"75.25", "0", "projected_board.square_px: must be positive"},
+    {"75.25", "1.9", "projected_board.square_px: must be 2 or more"},
     {"75.25", "116", "projected_board: corners lie outside the projector's picture of 1024 x 768"},
     {"75.25", "1e308", "projected_board: corners lie outside the projector's picture of 1024 x 768"},
     {"212.5", "-0.5", "projected_board: corners lie outside the projector's picture of 1024 x 768"},
@@ -132,6 +134,8 @@ constexpr Damage damages[] = {
     {"\"pose_1\"", "\"poses/1\"", "poses[1].capture: not a plain file name inside the folder"},
     {"\"printed\": \"a.jpg\", ", "", "poses[0].printed: missing"},
     {", \"projected\": \"b.jpg\"", "", "poses[0].projected: missing"},
+    {"{\"capture\": \"pose_1\"}", "{\"printed\": \"a.jpg\", \"projected\": \"b.jpg\"}",
+     "poses[1]: the same as poses[0]"},
     {"\"a.jpg\"", "\"b.jpg\"", "poses[0].projected: the same file as printed"},
     {"\"a.jpg\"", "\"/etc/passwd\"", "poses[0].printed: not a plain file name inside the folder"},
     {"\"b.jpg\"", "\"\"", "poses[0].projected: not a plain file name inside the folder"},

@@ -1,6 +1,7 @@
 #include "pipeline/calibration/calibration_file.hpp"
 
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_files.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -63,6 +64,20 @@ TEST_F(CalibrationFile, NotesAreReadByOpenCvAndPassedOver) {
   const auto read = parse_calibration(*text, "notes");
   ASSERT_TRUE(read) << read.error().message;
   expect_equal(*read, example());
+  write_text(path_, *text);
+  const auto notes = read_calibration_notes(path_);
+  ASSERT_TRUE(notes) << notes.error().message;
+  EXPECT_EQ(notes->camera_rms_px, 0.125);
+  EXPECT_EQ(notes->projector_rms_px, 0.25);
+  EXPECT_EQ(notes->stereo_rms_px, 0.5);
+}
+
+TEST_F(CalibrationFile, WithoutNotesSaysNothingAboutItsFit) {
+  write_text(path_, *calibration_text(example()) + "camera_rms_px: small\n");
+  const auto notes = read_calibration_notes(path_);
+  ASSERT_TRUE(notes) << notes.error().message;
+  EXPECT_FALSE(notes->camera_rms_px);
+  EXPECT_FALSE(notes->projector_rms_px);
 }
 
 TEST_F(CalibrationFile, OpenCvReadsWhatWeWrite) {

@@ -21,7 +21,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int rows_a_task = 16;
-constexpr int samples = 8;  // a pixel's side, where an edge crosses it
+constexpr int fine = 3;  // a pixel's side in fine pixels: blur comes before the pixels, or edges alias
+// Of a fine pixel where an edge crosses it, on a Fibonacci lattice: no two share an x or y.
+constexpr int samples = 21;
+constexpr int lattice_step = 13;
 
 Vector2d map(const Matrix3d& homography, const Vector2d& point) {
   return (homography * point.homogeneous()).hnormalized();
@@ -72,29 +75,59 @@ class Plane {
   const BoardPicture& how_;
 };
 
-// Mean light over a pixel.
-double pixel_light(const Plane& plane, int x, int y) {
-  const double middle = plane.light(Vector2d(x, y));
-  bool even = true;
-  for (const double dx : {-0.5, 0.5})
-    for (const double dy : {-0.5, 0.5}) even = even && plane.light(Vector2d(x + dx, y + dy)) == middle;
-  if (even) return middle;
+// Mean light over a square of a picture.
+double light_over(const Plane& plane, const Vector2d& top_left, double side) {
   double sum = 0;
-  for (int j = 0; j < samples; ++j)
-    for (int i = 0; i < samples; ++i)
-      sum += plane.light(Vector2d(x, y) + Vector2d(i + 0.5, j + 0.5) / samples - Vector2d(0.5, 0.5));
-  return sum / (samples * samples);
+  for (int i = 0; i < samples; ++i) {
+    const Vector2d within(i + 0.5, i * lattice_step % samples + 0.5);
+    sum += plane.light(top_left + side / samples * within);
+  }
+  return sum / samples;
+}
+
+// Whether a pixel lies within one square; if so, its light.
+std::optional<double> even_light(const Plane& plane, int x, int y) {
+  const double middle = plane.light(Vector2d(x, y));
+  for (const double dx : {-0.5, 0.5})
+    for (const double dy : {-0.5, 0.5})
+      if (plane.light(Vector2d(x + dx, y + dy)) != middle) return std::nullopt;
+  return middle;
+}
+
+// In fine pixels.
+FloatImage sharp_light(const Plane& plane, Size size) {
+  FloatImage light({fine * size.width, fine * size.height});
+  parallel_for(0, size.height, rows_a_task, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < size.width; ++x) {
+        const std::optional<double> even = even_light(plane, x, y);
+        for (int j = 0; j < fine; ++j)
+          for (int i = 0; i < fine; ++i)
+            light(fine * x + i, fine * y + j) = static_cast<float>(
+                even ? *even
+                     : light_over(plane, Vector2d(x, y) + Vector2d(i, j) / fine - Vector2d(0.5, 0.5),
+                                  1.0 / fine));
+      }
+    }
+  });
+  return light;
 }
 
 FloatImage light_of(const Plane& plane, Size size, const BoardPicture& how) {
+  FloatImage sharp = sharp_light(plane, size);
+  const FloatImage soft =
+      how.blur_px > 0 ? gaussian_blur(sharp, static_cast<float>(fine * how.blur_px)) : std::move(sharp);
   FloatImage light(size);
-  parallel_for(0, size.height, rows_a_task, [&](int first, int last) {
-    for (int y = first; y < last; ++y)
-      for (int x = 0; x < size.width; ++x)
-        light(x, y) =
-            static_cast<float>(how.exposure * (1 - how.uneven * x / size.width) * pixel_light(plane, x, y));
-  });
-  return how.blur_px > 0 ? gaussian_blur(light, static_cast<float>(how.blur_px)) : std::move(light);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      float sum = 0;
+      for (int j = 0; j < fine; ++j)
+        for (int i = 0; i < fine; ++i) sum += soft(fine * x + i, fine * y + j);
+      const double share = how.exposure * (1 - how.uneven * x / size.width) / (fine * fine);
+      light(x, y) = static_cast<float>(share * static_cast<double>(sum));
+    }
+  }
+  return light;
 }
 
 // Encoded grey levels of linear light in steps of full scale / 65535.
@@ -134,7 +167,8 @@ Matrix3d picture_from_board(const PrintedBoard& board, const BoardView& view) {
       Eigen::AngleAxisd(view.roll_degrees * degree, Vector3d::UnitZ()).matrix();
   const double distance = view.focal_px * board.square_mm / view.square_px;
   const Vector2d middle_mm = board.corner_mm(board.corner_count() - 1) / 2;
-  const Vector3d middle = distance * Vector3d(view.middle_px.x(), view.middle_px.y(), view.focal_px) / view.focal_px;
+  const Vector3d middle =
+      distance * Vector3d(view.middle_px.x(), view.middle_px.y(), view.focal_px) / view.focal_px;
   Matrix3d camera_from_board;
   camera_from_board << rotation.leftCols<2>(), middle - rotation.leftCols<2>() * middle_mm;
   Matrix3d picture_from_camera;

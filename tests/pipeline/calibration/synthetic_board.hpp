@@ -14,12 +14,12 @@ namespace bodyscan {
 // How a board is held before a camera without distortion whose axis meets the picture's middle.
 struct BoardView {
   Size picture{480, 360};
-  double square_px = 32;                                  // at the board's middle, before it is tilted
-  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();    // of the board, from the picture's middle
-  double roll_degrees = 0;                                // in the picture, from x (right) to y (down)
-  double tilt_degrees = 0;                                // away from facing the camera
-  double tilt_axis_degrees = 90;                          // of the axis it is tilted about, in the picture
-  double focal_px = 600;                                  // short: strong perspective
+  double square_px = 32;                                // at the board's middle, before it is tilted
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();  // of the board, from the picture's middle
+  double roll_degrees = 0;                              // in the picture, from x (right) to y (down)
+  double tilt_degrees = 0;                              // away from facing the camera
+  double tilt_axis_degrees = 90;                        // of the axis it is tilted about, in the picture
+  double focal_px = 600;                                // short: strong perspective
 };
 
 // Board mm to picture px.
@@ -39,7 +39,7 @@ struct BoardPicture {
   double background = 0.2;  // around the sheet
   double margin_squares = 1;
   double uneven = 0;  // share of the light lost from the picture's left to its right
-  std::optional<ProjectedLight> projected;
+  std::optional<ProjectedLight> projected = std::nullopt;
   double blur_px = 0.5;  // standard deviation of the Gaussian, beside the pixel's own square
   double exposure = 1;
   double noise = 0;  // standard deviation, linear light

@@ -2,10 +2,14 @@
 
 #include "pipeline/calibration/rig_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace bodyscan {
 namespace {
@@ -47,13 +51,12 @@ PoseObservation observe(const Calibration& rig, const PrintedBoard& board,
   const Eigen::Matrix3d camera_from_projector = rig.projector_from_camera.rotation.transpose();
   const Vector3d origin = -camera_from_projector * rig.projector_from_camera.translation;
   const Vector3d plane = camera_from_board.rotation.col(2);
-  const ProjectedBoard shown{9, 7, {230, 180}, 70};
-  for (int i = 0; i < shown.corner_count(); ++i) {
-    const Vector3d direction = camera_from_projector * rig.projector.ray(shown.corner_px(i));
+  for (int i = 0; i < shown_board.corner_count(); ++i) {
+    const Vector3d direction = camera_from_projector * rig.projector.ray(shown_board.corner_px(i));
     const double along = plane.dot(camera_from_board.translation - origin) / plane.dot(direction);
     const Vector3d point = origin + along * direction;
     pose.projected.push_back(
-        {shown.corner_px(i), rig.camera.project(point) + noise(options.camera_noise_px)});
+        {shown_board.corner_px(i), rig.camera.project(point) + noise(options.camera_noise_px)});
   }
   return pose;
 }
@@ -64,6 +67,7 @@ SyntheticSession make_session(const SessionOptions& options) {
   session.request.board = session.board;
   session.request.camera = session.truth.camera.size;
   session.request.projector = session.truth.projector.size;
+  session.request.projected_board = shown_board;
   const Vector3d middle(100, 75, 0);
   for (int i = 0; i < options.poses; ++i) {
     const double turn = 2 * std::numbers::pi * i / options.poses;
@@ -86,6 +90,18 @@ SyntheticSession make_session(const SessionOptions& options) {
 
 double baseline(const Calibration& calibration) {
   return calibration.projector_from_camera.translation.norm();
+}
+
+void expect_near_truth(const CalibrationResult& result, const Calibration& truth, double relative) {
+  EXPECT_NEAR(result.calibration.camera.fx / truth.camera.fx, 1, relative);
+  EXPECT_NEAR(result.calibration.projector.fx / truth.projector.fx, 1, relative);
+  EXPECT_NEAR(baseline(result.calibration) / baseline(truth), 1, relative);
+}
+
+const ParameterReport& parameter(const CalibrationReport& report, const std::string& name) {
+  const auto found = std::ranges::find(report.parameters, name, &ParameterReport::name);
+  if (found == report.parameters.end()) throw std::runtime_error("no parameter " + name);
+  return *found;
 }
 
 }  // namespace bodyscan

@@ -3,6 +3,7 @@
 #include "pipeline/calibration/calibrate.hpp"
 
 #include <functional>
+#include <string>
 
 namespace bodyscan {
 
@@ -36,6 +37,14 @@ PoseObservation observe(const Calibration& rig, const PrintedBoard& board,
                         const RigidTransform& camera_from_board, const SessionOptions& options, PoseKind kind,
                         unsigned seed, double scale = 1);
 
+inline const ProjectedBoard shown_board{9, 7, {230, 180}, 70};  // projected on poses that are pairs
+
 double baseline(const Calibration& calibration);
+
+// Focal lengths and baseline, relative.
+void expect_near_truth(const CalibrationResult& result, const Calibration& truth, double relative);
+
+// The parameter of that name, which must be there.
+const ParameterReport& parameter(const CalibrationReport& report, const std::string& name);
 
 }  // namespace bodyscan

@@ -21,6 +21,31 @@ expect(2 "--calibration: no built-in rig \"left\"" render --subject builtin:sphe
 expect(3 "missing.yml" render --subject builtin:spheres --calibration missing.yml --output never-written)
 expect(3 "missing.obj: cannot be read" render --subject missing.obj --calibration builtin:rows --output never-written)
 expect(2 "--scale: must lie" rig --scale 0 --output never-written.yml)
+
+set(session calibration --output never-written)
+expect(2 "--output is required" calibration)
+expect(2 "--poses: must lie in 1 to 14" ${session} --poses 15)
+expect(2 "--columns: must lie in 3 to 50" ${session} --columns 2)
+expect(2 "--rows: must lie" ${session} --rows 51)
+expect(2 "--square-mm: must lie" ${session} --square-mm 0)
+expect(2 "--bend: must lie in -30 to 30" ${session} --bend 31)
+expect(2 "--plate: must lie" ${session} --plate -1)
+expect(2 "--projected-share: must lie in 0.1 to 1" ${session} --projected-share 0.05)
+expect(2 "--uneven-light: must lie" ${session} --uneven-light 2)
+expect(2 "--lens-blur: must lie" ${session} --lens-blur -1)
+expect(2 "--method" ${session} --method stripes)
+expect(2 "--blunder: \"3:fire\" is no POSE:KIND .kinds: cut, moved," ${session} --blunder 0:cut,3:fire)
+expect(2 "--blunder: there is no pose 7 .0 to 6" ${session} --blunder 7:cut)
+expect(2 "do not both see the whole board of pose 0" ${session} --square-mm 60 --method gray)
+expect(2 "--calibration: no built-in rig \"left\"" ${session} --calibration builtin:left)
+expect(3 "missing.yml" ${session} --calibration missing.yml)
+foreach(listed --calibration --output --columns --rows --square-mm --bend --plate --projected-share --method --poses
+        --blunder --scale --projector --projector-roll --light --contrast --ambient --reflection --defocus --uneven-light
+        --subsurface --subsurface-blur --rays --lens-blur --full-well --read-noise --seed --frame-format --jpeg-quality
+        gray projected mixed cut moved blurred size scaled dark overexposed "truth/session.json")
+  expect(0 "[ ,{(]${listed}[ ,})]" calibration --help)
+endforeach()
+
 # Options reach the renderer.
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
@@ -44,6 +69,28 @@ file(GLOB frames ${SCRATCH}/capture/frame_*.png)
 list(LENGTH frames count)
 if(NOT count EQUAL 14 OR EXISTS ${SCRATCH}/capture/truth/mesh.obj)
   message(SEND_ERROR "${count} frames, wanted 14 and no mesh")
+endif()
+
+expect(0 "" calibration --calibration builtin:diagonal --output ${SCRATCH}/session --scale 0.0625 --projector 64x48
+       --projector-roll 5 --columns 8 --rows 6 --square-mm 24 --bend 5 --plate 300 --projected-share 0.9 --method projected
+       --poses 2 --blunder 0:cut,1:dark --blunder 1:scaled --light 0.7 --contrast 300 --ambient 0.01 --reflection 0.02
+       --defocus 0.6 --uneven-light 0.2 --subsurface 0.1 --subsurface-blur 2 --rays 1 --lens-blur 0.5 --full-well 20000
+       --read-noise 9 --seed 7 --frame-format png --jpeg-quality 80)
+file(READ ${SCRATCH}/session/truth/session.json session)
+string(REGEX REPLACE "[ \n]" "" session "${session}")
+foreach(wanted "calibration\":\"builtin:diagonal" "rig_scale\":0.0625" "rig_projector\":.64,48" "roll_degrees\":5.0"
+        "blunders\":.\"cut\"." "blunders\":.\"dark\",\"scaled\"." "columns\":8,\"rows\":6,\"square_mm\":24.0" "square_mm\":24.96"
+        "method\":\"projected\"" "bend_mm\":5.0" "plate_mm\":300.0" "projected_share\":0.9" "light\":0.7" "contrast\":300"
+        "ambient\":0.01" "reflection\":0.02" "defocus_px\":0.6" "uneven_light\":0.2" "subsurface\":0.1"
+        "subsurface_blur_px\":2.0" "rays\":1," "lens_blur_px\":0.5" "full_well_electrons\":20000"
+        "read_noise_electrons\":9" "seed\":7" "frame_format\":\"png" "jpeg_quality\":80")
+  if(NOT session MATCHES "${wanted}")
+    message(SEND_ERROR "truth/session.json lacks ${wanted}")
+  endif()
+endforeach()
+file(GLOB pictures RELATIVE ${SCRATCH}/session ${SCRATCH}/session/pose_*)
+if(NOT pictures STREQUAL "pose_0_printed.png;pose_0_projected.png;pose_1_printed.png;pose_1_projected.png")
+  message(SEND_ERROR "the session has ${pictures}")
 endif()
 file(REMOVE_RECURSE ${SCRATCH})
 

@@ -23,6 +23,8 @@ TEST(RenderOptions, AnErrorNamesItsOption) {
       {"--defocus", [](RenderOptions& o) { o.defocus = -1; }},
       {"--subsurface:", [](RenderOptions& o) { o.subsurface = 1.5; }},
       {"--subsurface-blur", [](RenderOptions& o) { o.subsurface_blur = -1; }},
+      {"--uneven-light: must lie in 0 to 1", [](RenderOptions& o) { o.uneven_light = 1.1; }},
+      {"--lens-blur: must lie in 0 to 50", [](RenderOptions& o) { o.lens_blur = -0.1; }},
       {"--rays", [](RenderOptions& o) { o.rays = 0; }},
       {"--full-well", [](RenderOptions& o) { o.full_well = -1; }},
       {"--read-noise", [](RenderOptions& o) { o.read_noise = -1; }},
