@@ -1,9 +1,9 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/page_writer.hpp"
 #include "pipeline/base/atomic_file.hpp"
 #include "pipeline/base/number_text.hpp"
-#include "pipeline/calibration/board_limits.hpp"
+#include "pipeline/board/board_limits.hpp"
+#include "pipeline/drawing/page_writer.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "app/calibration_fit.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
-#include "pipeline/calibration/plots.hpp"
+#include "pipeline/drawing/plots.hpp"
 
 #include <array>
 #include <chrono>

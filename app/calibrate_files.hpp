@@ -3,7 +3,7 @@
 #include "app/calibrate_session.hpp"
 #include "app/output_files.hpp"
 #include "hal/replay/calibration_session.hpp"
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <optional>
 #include <string>

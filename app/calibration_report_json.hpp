@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/calibration/calibration.hpp"
 #include "pipeline/calibration/calibration_report.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <string>
 #include <utility>

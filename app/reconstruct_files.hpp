@@ -3,7 +3,7 @@
 #include "app/output_files.hpp"
 #include "app/reconstruct.hpp"
 #include "hal/replay/capture_folder.hpp"
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 #include "pipeline/model/vrml_writer.hpp"
 
 #include <string>

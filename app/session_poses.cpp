@@ -3,9 +3,9 @@
 #include "app/interrupt.hpp"
 #include "hal/replay/frame_reader.hpp"
 #include "pipeline/base/number_text.hpp"
-#include "pipeline/calibration/corner_refinement.hpp"
-#include "pipeline/calibration/find_board.hpp"
-#include "pipeline/calibration/gray_code_corners.hpp"
+#include "pipeline/board/corner_refinement.hpp"
+#include "pipeline/board/find_board.hpp"
+#include "pipeline/board/gray_code_corners.hpp"
 #include "pipeline/decode/decoder.hpp"
 
 #include <algorithm>

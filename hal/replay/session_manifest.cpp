@@ -2,7 +2,7 @@
 
 #include "hal/replay/manifest_fields.hpp"
 #include "pipeline/base/size_text.hpp"
-#include "pipeline/calibration/board_limits.hpp"
+#include "pipeline/board/board_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -109,9 +109,11 @@ Expected<PoseFiles> pose_of(const JsonNode& node, std::size_t index) {
 }
 
 // The same pictures again tell nothing, but would count.
-Expected<void> check_other(const JsonNode& node, const PoseFiles& pose, const std::vector<PoseFiles>& before) {
+Expected<void> check_other(const JsonNode& node, const PoseFiles& pose,
+                           const std::vector<PoseFiles>& before) {
   const auto same = std::ranges::find_if(before, [&](const PoseFiles& other) {
-    return other.printed == pose.printed && other.projected == pose.projected && other.capture == pose.capture;
+    return other.printed == pose.printed && other.projected == pose.projected &&
+           other.capture == pose.capture;
   });
   if (same == before.end()) return {};
   return node.error("the same as poses[" + std::to_string(same - before.begin()) + "]");
@@ -127,8 +129,7 @@ Expected<std::vector<PoseFiles>> poses_of(const JsonNode& node) {
     const JsonNode item{&(*node.value)[i], node.place + "[" + std::to_string(i) + "]"};
     Expected<PoseFiles> pose = pose_of(item, i);
     if (!pose) return tl::unexpected(pose.error());
-    if (Expected<void> other = check_other(item, *pose, poses); !other)
-      return tl::unexpected(other.error());
+    if (Expected<void> other = check_other(item, *pose, poses); !other) return tl::unexpected(other.error());
     poses.push_back(std::move(*pose));
   }
   return poses;

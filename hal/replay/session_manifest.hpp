@@ -2,7 +2,7 @@
 
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
-#include "pipeline/calibration/board.hpp"
+#include "pipeline/board/board.hpp"
 
 #include <cstddef>
 #include <optional>

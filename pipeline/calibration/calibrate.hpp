@@ -1,9 +1,9 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
-#include "pipeline/calibration/board.hpp"
+#include "pipeline/board/board.hpp"
+#include "pipeline/board/observations.hpp"
 #include "pipeline/calibration/calibration_report.hpp"
-#include "pipeline/calibration/observations.hpp"
 
 #include <optional>
 #include <string>

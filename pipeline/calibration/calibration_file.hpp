@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/base/image.hpp"
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 #include "pipeline/calibration/initial_guess.hpp"
 
-#include "pipeline/calibration/homography.hpp"
+#include "pipeline/board/homography.hpp"
 
 #include <algorithm>
 #include <cmath>

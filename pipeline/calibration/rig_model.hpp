@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/calibration/board.hpp"
-#include "pipeline/calibration/calibration.hpp"
-#include "pipeline/calibration/observations.hpp"
+#include "pipeline/board/board.hpp"
+#include "pipeline/board/observations.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <array>
 #include <bitset>

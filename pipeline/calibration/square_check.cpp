@@ -1,6 +1,6 @@
 #include "pipeline/calibration/square_check.hpp"
 
-#include "pipeline/calibration/homography.hpp"
+#include "pipeline/board/homography.hpp"
 
 #include <cmath>
 #include <map>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/base/error.hpp"
-#include "pipeline/calibration/calibration.hpp"
 #include "pipeline/decode/correspondence.hpp"
+#include "pipeline/geometry/calibration.hpp"
 #include "pipeline/geometry/point_grid.hpp"
 
 namespace bodyscan {

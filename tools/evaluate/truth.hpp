@@ -2,7 +2,7 @@
 
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 #include "pipeline/geometry/point_grid.hpp"
 #include "tools/evaluate/shape_fit.hpp"
 #include "tools/evaluate/true_surface.hpp"

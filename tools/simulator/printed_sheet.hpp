@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/calibration/board.hpp"
+#include "pipeline/board/board.hpp"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/base/image.hpp"
-#include "pipeline/calibration/board.hpp"
+#include "pipeline/board/board.hpp"
 #include "tools/simulator/blurred_row.hpp"
 
 namespace bodyscan::simulator {

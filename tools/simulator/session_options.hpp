@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/calibration/board.hpp"
+#include "pipeline/board/board.hpp"
 #include "tools/simulator/render_options.hpp"
 
 #include <string>

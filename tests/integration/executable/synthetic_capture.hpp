@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/calibration/calibration.hpp"
+#include "pipeline/geometry/calibration.hpp"
 #include "pipeline/pattern/sequence.hpp"
 
 #include <filesystem>

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "pipeline/board/board.hpp"
+#include "pipeline/calibration/calibration_report.hpp"
+#include "pipeline/geometry/calibration.hpp"
+
+#include <string>
+#include <vector>
+
+namespace bodyscan {
+
+// Pictures of how good a calibration is and what it rests on, for people; each is a whole SVG file. A pose
+// has the same colour in all of them.
+
+// What is left of every used corner as an arrow on the camera's picture.
+std::string residual_plot(const CalibrationReport& report, const Calibration& calibration);
+
+// All corners in the camera's and the projector's picture: dots, crosses where they were left out.
+std::string coverage_plot(const CalibrationReport& report, const Calibration& calibration);
+
+// Camera, projector and boards in space, isometric; boards that were left out are dashed, and not there where
+// no pose is known (not before the camera).
+std::string pose_plot(const CalibrationReport& report, const Calibration& calibration,
+                      const PrintedBoard& board);
+
+// How many used corners have residuals of which length.
+std::string residual_histogram(const CalibrationReport& report);
+
+struct Plot {
+  std::string file_name;
+  std::string svg;
+};
+
+// All of them.
+std::vector<Plot> calibration_plots(const CalibrationReport& report, const Calibration& calibration,
+                                    const PrintedBoard& board);
+
+}  // namespace bodyscan
