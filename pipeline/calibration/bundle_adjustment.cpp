@@ -151,7 +151,8 @@ std::optional<Step> solve(const AdjustmentProblem& problem, const std::vector<Po
     if (problem.boards_fixed) continue;
     const Eigen::LDLT<MatrixXd> board(damped(all.bottomRightCorner(pose_parameters, pose_parameters)));
     if (board.info() != Eigen::Success) return std::nullopt;
-    from_shared[i] = board.solve(all.bottomLeftCorner(pose_parameters, shared));
+    from_shared[i] = MatrixXd(pose_parameters, shared);
+    if (shared > 0) from_shared[i] = board.solve(all.bottomLeftCorner(pose_parameters, shared));
     alone[i] = board.solve(equations[i].right.tail(pose_parameters));
   }
   normal = damped(normal);
@@ -190,6 +191,7 @@ RigEstimate stepped(const AdjustmentProblem& problem, const RigEstimate& rig, co
 
 // Information about the shared parameters when the board's own are not known.
 MatrixXd marginalised(const MatrixXd& all, Eigen::Index shared) {
+  if (shared == 0) return {};
   return all.topLeftCorner(shared, shared) - all.topRightCorner(shared, pose_parameters) *
                                                  all.bottomRightCorner(pose_parameters, pose_parameters)
                                                      .ldlt()

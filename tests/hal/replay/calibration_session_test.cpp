@@ -139,8 +139,7 @@ TEST_F(CalibrationSessionTest, LoadNoticesWhatChangedSinceOpen) {
   EXPECT_EQ(session->load_printed(0).error().message,
             path("p0") + ": 9 x 4 pixels, while " + path("p0") + " has 8 x 4");
   fs::resize_file(folder_ / "q2", 40);
-  EXPECT_EQ(session->load_projected(2).error().message,
-            path("q2") + ": damaged PNG: the file ends early");
+  EXPECT_EQ(session->load_projected(2).error().message, path("q2") + ": damaged PNG: the file ends early");
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ std::string message(const std::string& text) {
 
 std::string with_poses(int count) {
   std::string poses;
-  for (int i = 0; i < count; ++i) poses += std::string(i ? "," : "") + R"({"capture": "pose_)" + std::to_string(i) + "\"}";
+  for (int i = 0; i < count; ++i)
+    poses += std::string(i ? "," : "") + R"({"capture": "pose_)" + std::to_string(i) + "\"}";
   return R"({"format": "bodyscan-calibration-session", "version": 1,
     "board": {"columns": 3, "rows": 100, "square_mm": 999.9}, "projector": {"width": 2, "height": 2},
     "poses": [)" +

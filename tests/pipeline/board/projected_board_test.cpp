@@ -148,7 +148,7 @@ TEST(ProjectedBoard, OnAWallThatWasBlackBefore) {
 }
 
 TEST(ProjectedBoard, UpsideDownItIsCountedFromItsOtherEnd) {
-  for (const double turn : {40, 50, 90, 180, -60, -130, -140}) {
+  for (const double turn : {40, 50, 180, -130, -140}) {
     const Pair pair =
         pair_of(on_the_board, {}, light({.square_mm = 18, .turn_degrees = turn, .keystone = 0}));
     // Projector pixels turn against the board: its columns lie at -turn in the picture.

@@ -1,6 +1,8 @@
 #include "pipeline/calibration/rig_model.hpp"
 #include "tests/pipeline/calibration/synthetic_session.hpp"
 
+#include <map>
+
 #include <gtest/gtest.h>
 
 namespace bodyscan {
@@ -30,13 +32,25 @@ void PrintTo(const BadPose& pose, std::ostream* out) {
 }
 class Spoilt : public testing::TestWithParam<BadPose> {};
 
+SessionOptions session_of(PoseKind kind) {
+  SessionOptions options;
+  options.poses = 6;
+  options.kind = [=](int) { return kind; };
+  return options;
+}
+
+// Of a session without a bad pose.
+double clean_rms(PoseKind kind) {
+  static std::map<PoseKind, double> known;
+  const auto found = known.find(kind);
+  if (found != known.end()) return found->second;
+  return known[kind] = calibrate(make_session(session_of(kind)).request).value().report.joint_rms_px;
+}
+
 TEST_P(Spoilt, PoseIsNamedAndLeftOut) {
   for (const PoseKind kind : {PoseKind::gray_code, PoseKind::pair}) {
-    SessionOptions options;
-    options.kind = [=](int) { return kind; };
+    const SessionOptions options = session_of(kind);
     SyntheticSession session = make_session(options);
-    const auto clean = calibrate(session.request);
-    ASSERT_TRUE(clean);
     GetParam().spoil(session, options);
     const auto result = calibrate(session.request);
     ASSERT_TRUE(result) << result.error().message;
@@ -44,7 +58,7 @@ TEST_P(Spoilt, PoseIsNamedAndLeftOut) {
       EXPECT_EQ(result->report.poses[i].used, i != 3) << i << ": " << result->report.poses[i].reason;
     EXPECT_NE(result->report.poses[3].reason.find(GetParam().reason), std::string::npos)
         << result->report.poses[3].reason;
-    EXPECT_LT(result->report.joint_rms_px, 1.2 * clean->report.joint_rms_px);
+    EXPECT_LT(result->report.joint_rms_px, 1.2 * clean_rms(kind));
     expect_near_truth(*result, session.truth, 1e-3);
   }
 }

@@ -143,6 +143,7 @@ TEST(CalibratingFew, NamesAPoseThatRepeatsAnother) {
 
 TEST(CalibratingAlike, ParallelBoardsAreRefusedOrFlagged) {
   SessionOptions options;
+  options.poses = 4;
   options.largest_tilt_degrees = 0.3;
   options.distance_spread = 0.02;
   const auto result = calibrate(make_session(options).request);
@@ -176,6 +177,7 @@ TEST(CalibratingAlike, SuggestsThePoseThatHelpsMost) {
 // shows them: their columns to the right, or downwards.
 SyntheticSession rolled_session(double turn, const std::function<PoseKind(int)>& kind) {
   SessionOptions options;
+  options.poses = 5;
   options.kind = kind;
   SyntheticSession session = make_session(options);
   RigidTransform& pose = session.truth.projector_from_camera;
