@@ -97,7 +97,8 @@ Expected<void> CalibrateOutputs::draw_plots(const CalibrationResult& result, con
 }
 
 Expected<void> CalibrateOutputs::write(const CalibrateOutcome& outcome, const PrintedBoard& board) {
-  const auto& [calibration, report] = outcome.result;
+  const Calibration& calibration = outcome.result.calibration;
+  const CalibrationReport& report = outcome.result.report;
   const CalibrationNotes notes{utc_now(), report.camera_rms_px, report.projector_rms_px, report.joint_rms_px};
   return calibration_text(calibration, notes)
       .and_then([&](const std::string& text) { return calibration_.write(text); })

@@ -140,7 +140,7 @@ struct Known {
 Known known_corners(const ChessboardCorners& board, int factor) {
   Known known{{}, hide_share * square_px(board) / factor};
   for (const auto& corner : board.corners)
-    if (corner) known.corners.push_back((*corner - Vector2d::Constant((factor - 1) / 2.0)) / factor);
+    if (corner) known.corners.emplace_back((*corner - Vector2d::Constant((factor - 1) / 2.0)) / factor);
   return known;
 }
 
@@ -249,7 +249,7 @@ std::optional<double> large_shift(const FloatImage& image, const ChessboardCorne
   std::vector<Vector2d> shifts;
   for (const SaddlePoint& saddle : find_saddle_points(reduced(image, factor), {}))
     for (const Vector2d& corner : known.corners)
-      if ((saddle.at - corner).norm() < square / 2) shifts.push_back(saddle.at - corner);
+      if ((saddle.at - corner).norm() < square / 2) shifts.emplace_back(saddle.at - corner);
   std::vector<double> common;
   for (const Vector2d& shift : shifts) {
     std::vector<double> alike;

@@ -96,7 +96,8 @@ SaddlePoint describe(const Eigen::Vector2d& at, const Hessian& h, float strength
   const Eigen::Vector2d up = solver.eigenvectors().col(1);
   const double a = std::sqrt(rising / (falling + rising));
   const double b = std::sqrt(falling / (falling + rising));
-  SaddlePoint point{at, {a * down + b * up, a * down - b * up}, false, strength};
+  SaddlePoint point{
+      at, {Eigen::Vector2d(a * down + b * up), Eigen::Vector2d(a * down - b * up)}, false, strength};
   // edges[0] to the right half, so that directions compare; the bright sector holds `up`.
   for (Eigen::Vector2d& edge : point.edges) {
     if (edge.x() < 0 || (edge.x() == 0 && edge.y() < 0)) edge = -edge;

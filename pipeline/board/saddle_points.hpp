@@ -2,6 +2,7 @@
 
 #include "pipeline/base/image.hpp"
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,10 +12,10 @@ namespace bodyscan {
 // A place where four squares of a chessboard may meet: brightness rises along one diagonal and falls along
 // the other.
 struct SaddlePoint {
-  Eigen::Vector2d at;        // px
-  Eigen::Vector2d edges[2];  // unit directions of the two edges through it, 180 degrees open
-  bool positive;             // bright between edges[0] and edges[1] going by the smaller angle
-  float strength;            // 0.64 for four sharp, equally bright pairs of squares
+  Eigen::Vector2d at;                    // px
+  std::array<Eigen::Vector2d, 2> edges;  // unit directions of the two edges through it, 180 degrees open
+  bool positive;                         // bright between edges[0] and edges[1] going by the smaller angle
+  float strength;                        // 0.64 for four sharp, equally bright pairs of squares
 };
 
 struct SaddleOptions {

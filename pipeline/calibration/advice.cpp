@@ -199,7 +199,7 @@ std::vector<std::string> advise_on_poses(const AdjustmentProblem& problem, const
         ": focal lengths, principal points and distances cannot be told apart well; tilt the board by 20 to "
         "40 degrees both ways");
   if (spread.farthest < (1 + one_distance) * spread.nearest)
-    lines.push_back("all boards are about equally far away: hold some nearer, some farther");
+    lines.emplace_back("all boards are about equally far away: hold some nearer, some farther");
   const Vector2d coverage = coverage_of(problem, fit.rig.calibration.camera.size);
   if (coverage.minCoeff() < little_coverage)
     lines.push_back("the corners cover " + text("%.0f %% of the picture's width and ", 100 * coverage.x()) +

@@ -226,7 +226,7 @@ Expected<CalibrationResult> calibrate_extrinsics(const CalibrationRequest& reque
   if (const Expected<void> agree = check_agreement(surprise, result.report); !agree)
     return input_error(agree.error().message + bad_poses(request, reasons));
   if (std::ranges::count(problem.used, true) == 1)
-    result.report.advice.push_back(
+    result.report.advice.emplace_back(
         "one pose tells where the projector is, but nothing checks it: a second one, held elsewhere, would");
   return result;
 }
@@ -247,7 +247,7 @@ Expected<CalibrationResult> calibrate_whole(const CalibrationRequest& request, c
     return input_error(agree.error().message + bad_poses(request, reasons));
   result.report.advice = advise(problem, supported);
   if (has_pairs(start.poses) && !has_captures(start.poses))
-    result.report.advice.push_back(
+    result.report.advice.emplace_back(
         "pairs of pictures do not tell whether the projector stands upright or upside down: it is taken to "
         "stand so that its picture's right is the camera picture's right (or below); a Gray-code pose tells");
   return result;

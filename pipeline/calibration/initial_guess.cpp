@@ -61,7 +61,7 @@ Pairs projector_pairs(const PrintedBoard& board, const PoseObservation& pose, co
   }
   for (const Beam& beam : pose.projected) {
     const Vector3d point = on_board_plane(camera_from_board, camera.ray(beam.camera_px));
-    pairs.plane.push_back(
+    pairs.plane.emplace_back(
         (camera_from_board.rotation.transpose() * (point - camera_from_board.translation)).head<2>());
     pairs.px.push_back(beam.projector_px);
   }

@@ -23,8 +23,8 @@ std::map<int, Vector3d> projector_rays(const Calibration& calibration, const Pos
   std::vector<Vector2d> camera;
   std::vector<Vector2d> projector;
   for (const Beam& beam : pose.projected) {
-    camera.push_back(calibration.camera.ray(beam.camera_px).head<2>());
-    projector.push_back(calibration.projector.ray(beam.projector_px).head<2>());
+    camera.emplace_back(calibration.camera.ray(beam.camera_px).head<2>());
+    projector.emplace_back(calibration.projector.ray(beam.projector_px).head<2>());
   }
   const auto homography = fit_homography(camera, projector);
   if (!homography) return rays;
@@ -72,9 +72,9 @@ TriangulatedBoard triangulate_board(const Calibration& calibration, const Printe
   }
   TriangulatedBoard result;
   for (const auto& [corner, point] : points) {
-    const auto add = [&](int neighbour) {
+    const auto add = [&, here = point](int neighbour) {
       const auto other = points.find(neighbour);
-      if (other != points.end()) result.sides.push_back((other->second - point).norm() / board.square_mm);
+      if (other != points.end()) result.sides.push_back((other->second - here).norm() / board.square_mm);
     };
     if (corner % board.columns + 1 < board.columns) add(corner + 1);
     if (corner / board.columns + 1 < board.rows) add(corner + board.columns);
