@@ -1,3 +1,4 @@
+#include "pipeline/base/median.hpp"
 #include "pipeline/calibration/calibration_file.hpp"
 #include "tools/bench/markdown.hpp"
 #include "tools/bench/parts.hpp"

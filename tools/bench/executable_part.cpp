@@ -1,3 +1,4 @@
+#include "pipeline/base/median.hpp"
 #include "tools/bench/markdown.hpp"
 #include "tools/bench/parts.hpp"
 #include "tools/bench/program_runs.hpp"

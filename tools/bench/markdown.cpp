@@ -29,13 +29,6 @@ std::string fixed(double value, int digits) {
   return text;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
 Expected<void> replace_section(const std::filesystem::path& file, const std::string& name,
                                const std::string& text) {
   std::string whole;

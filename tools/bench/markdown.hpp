@@ -14,8 +14,6 @@ std::string markdown_table(const std::vector<std::vector<std::string>>& lines);
 // A number with so many digits behind the point.
 std::string fixed(double value, int digits);
 
-double median(std::vector<double> values);  // 0 of none
-
 // Puts `text` between the lines <!-- bench: NAME --> and <!-- end: NAME --> of the file, in place of what was
 // there; at the end of the file if it has no such lines.
 Expected<void> replace_section(const std::filesystem::path& file, const std::string& name,

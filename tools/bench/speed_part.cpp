@@ -1,3 +1,4 @@
+#include "pipeline/base/median.hpp"
 #include "tools/bench/link_capture.hpp"
 #include "tools/bench/markdown.hpp"
 #include "tools/bench/parts.hpp"
