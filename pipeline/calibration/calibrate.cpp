@@ -166,18 +166,23 @@ double focal_uncertainty(const AdjustmentProblem& problem, const Adjustment& fit
   return variance >= 0 && value > 0 ? std::sqrt(variance) / value : std::numeric_limits<double>::infinity();
 }
 
+std::string lines_of(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += "\n  " + line;
+  return text;
+}
+
 Expected<void> check_focal_lengths(const AdjustmentProblem& problem, const Adjustment& fit) {
   for (const int parameter :
        {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
     const double uncertainty = focal_uncertainty(problem, fit, parameter);
     if (uncertainty < max_focal_uncertainty) continue;
-    std::string message =
+    const std::string message =
         "the poses are too much alike to tell the focal lengths (" + parameter_name(parameter) + " to " +
         percent(std::min(uncertainty, 9.99)) +
         "): hold the board tilted by 20 to 40 degrees, to the left, the right, up and down, "
         "nearer and farther";
-    for (const std::string& line : advise_on_poses(problem, fit)) message += "\n  " + line;
-    return input_error(message);
+    return input_error(message + lines_of(advise_on_poses(problem, fit)));
   }
   return check_calibration(fit.rig.calibration);
 }
@@ -188,8 +193,8 @@ Expected<void> check_agreement(double surprise, const CalibrationReport& report)
   return input_error(
       "the poses contradict one another: a pose is " + fixed_text(*report.leave_one_out_camera_px, 2) +
       " px off in the camera and " + fixed_text(*report.leave_one_out_projector_px, 2) +
-      " px off in the projector when the others are calibrated without it; at least one is bad, and a few "
-      "more good ones would show which");
+      " px off in the projector when the others are calibrated without it; at least one is bad, or they tell "
+      "too little, and a few more good ones would show which");
 }
 
 // Those of before, and `more` where there were none.
@@ -244,7 +249,8 @@ Expected<CalibrationResult> calibrate_whole(const CalibrationRequest& request, c
   CalibrationResult result{supported.fit.rig.calibration, report_of(problem, supported, reasons)};
   const double surprise = report_leave_one_out(problem, supported.fit, result.report);
   if (const Expected<void> agree = check_agreement(surprise, result.report); !agree)
-    return input_error(agree.error().message + bad_poses(request, reasons));
+    return input_error(agree.error().message + bad_poses(request, reasons) +
+                       lines_of(advise_on_poses(problem, supported.fit)));
   result.report.advice = advise(problem, supported);
   if (has_pairs(start.poses) && !has_captures(start.poses))
     result.report.advice.emplace_back(
