@@ -37,4 +37,8 @@ using Expected = tl::expected<Value, Error>;
   return tl::unexpected(Error{ErrorKind::output, std::move(message)});
 }
 
+[[nodiscard]] inline tl::unexpected<Error> device_error(std::string message) {
+  return tl::unexpected(Error{ErrorKind::device, std::move(message)});
+}
+
 }  // namespace bodyscan
