@@ -50,8 +50,8 @@ class ReconstructCommand : public testing::Test {
     write_flat_capture(folder_);
     options_.capture = folder_;
     options_.calibration = folder_ / "calibration.yml";
-    options_.model = folder_ / "results" / "model.wrl";
-    options_.report = folder_ / "results" / "report.json";
+    options_.model.path = folder_ / "results" / "model.wrl";
+    options_.model.report = folder_ / "results" / "report.json";
   }
 
   TemporaryFolder temporary_;

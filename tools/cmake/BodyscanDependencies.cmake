@@ -22,4 +22,5 @@ bodyscan_archive(ext::jpeg ARCHIVES libjpeg.a)
 bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
 bodyscan_archive(ext::json)   # nlohmann, header-only
 bodyscan_archive(ext::cli11)  # header-only
+bodyscan_archive(ext::toml)   # toml++, header-only
 bodyscan_archive(ext::expected)  # tl::expected, header-only

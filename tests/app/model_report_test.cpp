@@ -1,4 +1,4 @@
-#include "app/reconstruct.hpp"
+#include "app/model_report.hpp"
 
 #include <limits>
 
@@ -8,8 +8,8 @@
 namespace bodyscan {
 namespace {
 
-ReconstructReport sample() {
-  ReconstructReport report;
+ModelReport sample() {
+  ModelReport report;
   report.points = 5;
   report.faces = 6;
   report.pixels_lit = 8;
@@ -23,7 +23,7 @@ ReconstructReport sample() {
   return report;
 }
 
-TEST(ReconstructReport, HoldsEveryFigureUnderItsKey) {
+TEST(ModelReport, HoldsEveryFigureUnderItsKey) {
   const auto json = nlohmann::ordered_json::parse(to_json(sample()));
   EXPECT_EQ(json, nlohmann::ordered_json::parse(R"json({
     "points": 5, "faces": 6, "pixels_lit": 8, "pixels_decoded": 7, "decoded_fraction": 0.875,
@@ -33,14 +33,14 @@ TEST(ReconstructReport, HoldsEveryFigureUnderItsKey) {
 })json"));
 }
 
-TEST(ReconstructReport, FractionOfNothingIsZero) {
-  ReconstructReport report = sample();
+TEST(ModelReport, FractionOfNothingIsZero) {
+  ModelReport report = sample();
   report.pixels_lit = report.pixels_decoded = 0;
   EXPECT_EQ(nlohmann::json::parse(to_json(report)).at("decoded_fraction"), 0.0);
 }
 
-TEST(ReconstructReport, FileNameThatIsNoUtf8IsStillJson) {
-  ReconstructReport report = sample();
+TEST(ModelReport, FileNameThatIsNoUtf8IsStillJson) {
+  ModelReport report = sample();
   report.calibration = "caf\xe9.yml";
   EXPECT_TRUE(nlohmann::json::accept(to_json(report)));
 }

@@ -1,17 +1,18 @@
-#include "app/reconstruct.hpp"
+#include "app/model_report.hpp"
 
 #include <nlohmann/json.hpp>
 
 namespace bodyscan {
 
-std::string to_json(const ReconstructReport& report) {
-  using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ModelReport& report) {
   Json removed = Json::object();
   for (const auto& [reason, count] : report.artifacts_removed) removed[reason] = count;
   Json timings = Json::object();
   for (const auto& [stage, milliseconds] : report.timings_ms) timings[stage] = milliseconds;
   const auto lit = static_cast<double>(report.pixels_lit);
-  const Json json = {
+  return {
       {"points", report.points},
       {"faces", report.faces},
       {"pixels_lit", report.pixels_lit},
@@ -24,6 +25,13 @@ std::string to_json(const ReconstructReport& report) {
       {"software", report.software},
       {"calibration", report.calibration},
   };
+}
+
+std::string to_json(const ModelReport& report) {
+  return text_of(json_of(report));
+}
+
+std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
