@@ -3,18 +3,12 @@
 #include "app/console.hpp"
 #include "pipeline/base/number_text.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
 
 #include <CLI/CLI.hpp>
 
 namespace bodyscan {
 namespace {
-
-constexpr double good = 0.001;  // relative, of focal lengths and baseline
-constexpr double usable = 0.003;
 
 std::string px(double value) {
   return fixed_text(value, 3) + " px";
@@ -22,23 +16,6 @@ std::string px(double value) {
 
 std::string percent(double value) {
   return (value > 0 ? "+" : "") + fixed_text(value, 3) + " %";
-}
-
-// Of focal lengths and baseline together; nothing where lenses were kept.
-std::optional<double> relative_uncertainty(const CalibrationReport& report) {
-  double sum = 0;
-  for (const char* name : {"camera fx", "projector fx", "baseline"}) {
-    const auto found = std::ranges::find(report.parameters, name, &ParameterReport::name);
-    if (found == report.parameters.end() || !found->estimated || !found->sigma) return std::nullopt;
-    sum += *found->sigma * *found->sigma / (found->value * found->value);
-  }
-  return std::sqrt(sum);
-}
-
-std::string verdict(double uncertainty) {
-  if (uncertainty <= good) return "good";
-  if (uncertainty <= usable) return "usable; more poses would make it good";
-  return "poor; shoot more poses";
 }
 
 std::string summary(const CalibrationReport& report, const std::filesystem::path& output) {
@@ -56,9 +33,9 @@ std::string summary(const CalibrationReport& report, const std::filesystem::path
     for (const std::string& note : pose.notes) text += pose.name + ": " + note + "\n";
   }
   for (const std::string& advice : report.advice) text += advice + "\n";
-  if (const auto uncertainty = relative_uncertainty(report))
-    text += "focal lengths and baseline are known to " + fixed_text(100 * *uncertainty, 3) +
-            " %: " + verdict(*uncertainty) + "\n";
+  if (report.relative_uncertainty)
+    text += "focal lengths and baseline are known to " + fixed_text(100 * *report.relative_uncertainty, 3) +
+            " %: " + report.verdict + "\n";
   return text;
 }
 

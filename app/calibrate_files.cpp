@@ -96,14 +96,18 @@ Expected<void> CalibrateOutputs::draw_plots(const CalibrationResult& result, con
   return {};
 }
 
-Expected<void> CalibrateOutputs::write(const CalibrateOutcome& outcome, const PrintedBoard& board) {
+Expected<void> CalibrateOutputs::write(const CalibrateOutcome& outcome, const CalibrateInputs& inputs) {
   const Calibration& calibration = outcome.result.calibration;
   const CalibrationReport& report = outcome.result.report;
-  const CalibrationNotes notes{utc_now(), report.camera_rms_px, report.projector_rms_px, report.joint_rms_px};
+  CalibrationNotes notes{utc_now(), report.camera_rms_px, report.projector_rms_px, report.joint_rms_px};
+  if (const auto& kept = inputs.kept) {
+    if (kept->camera_rms_px > 0) notes.camera_rms_px = kept->camera_rms_px;
+    if (kept->projector_rms_px > 0) notes.projector_rms_px = kept->projector_rms_px;
+  }
   return calibration_text(calibration, notes)
       .and_then([&](const std::string& text) { return calibration_.write(text); })
       .and_then([&] { return report_.write(to_json(report, calibration, outcome.run)); })
-      .and_then([&] { return draw_plots(outcome.result, board); });
+      .and_then([&] { return draw_plots(outcome.result, inputs.session.manifest().board); });
 }
 
 Expected<void> CalibrateOutputs::commit() {

@@ -26,7 +26,7 @@ class CalibrateOutputs {
   // Error: a file that cannot be written.
   static Expected<CalibrateOutputs> open(const CalibrateOptions& options);
 
-  Expected<void> write(const CalibrateOutcome& outcome, const PrintedBoard& board);
+  Expected<void> write(const CalibrateOutcome& outcome, const CalibrateInputs& inputs);
   Expected<void> commit();
 
  private:

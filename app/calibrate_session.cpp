@@ -31,7 +31,7 @@ Expected<CalibrateOutcome> calibrate_session(const CalibrateOptions& options, Pr
 
   CalibrateOutcome outcome{std::move(*result), {std::string(software_version()), clock.stages_ms()}};
   const Expected<void> written =
-      check_interrupt().and_then([&] { return outputs->write(outcome, manifest.board); }).and_then([&] {
+      check_interrupt().and_then([&] { return outputs->write(outcome, *inputs); }).and_then([&] {
         return outputs->commit();
       });
   if (!written) return tl::unexpected(written.error());

@@ -95,6 +95,8 @@ std::string to_json(const CalibrationReport& report, const Calibration& calibrat
       {"square_error_percent", report.square_error_percent},
       {"square_spread_percent", report.square_spread_percent},
       {"leave_one_out_square_error_percent", json_of(report.leave_one_out_square_error_percent)},
+      {"relative_uncertainty", json_of(report.relative_uncertainty)},
+      {"verdict", report.verdict},
       {"advice", Json(report.advice)},
       {"calibration", json_of(calibration)},
       {"parameters", list_of(report.parameters)},

@@ -33,6 +33,13 @@ struct ProjectedBoard {
   [[nodiscard]] Eigen::Vector2d corner_px(int index) const {
     return first_corner_px + square_px * Eigen::Vector2d(index % columns, index / columns);
   }
+  // Whether it looks the same from each of its four sides.
+  [[nodiscard]] bool square() const { return columns == rows; }
+  // Of the same board counted from its next corner: square ones only.
+  [[nodiscard]] Eigen::Vector2d quarter_turned(const Eigen::Vector2d& px) const {
+    const Eigen::Vector2d middle = (corner_px(0) + corner_px(corner_count() - 1)) / 2;
+    return middle + Eigen::Vector2d(middle.y() - px.y(), px.x() - middle.x());
+  }
   // Of the same board counted from its opposite corner.
   [[nodiscard]] Eigen::Vector2d half_turned(const Eigen::Vector2d& px) const {
     return corner_px(0) + corner_px(corner_count() - 1) - px;

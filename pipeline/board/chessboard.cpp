@@ -298,12 +298,14 @@ int ChessboardCorners::found() const {
 }
 
 std::optional<ChessboardCorners> turned_upright(const ChessboardCorners& board, int columns, int rows) {
+  // A square board fits four ways, an eighth of a turn from this direction to the next; others fit two.
+  const Vector2d wanted = columns == rows ? Vector2d(1, 0) : Vector2d(1, 1);
   std::optional<ChessboardCorners> best;
   double best_direction = -std::numeric_limits<double>::max();
   ChessboardCorners turned = board;
   for (int quarter = 0; quarter < 4; ++quarter, turned = turned_by_a_quarter(turned)) {
     if (turned.columns != columns || turned.rows != rows) continue;
-    const double direction = column_direction(turned).dot(Vector2d(1, 1));
+    const double direction = column_direction(turned).dot(wanted);
     if (direction <= best_direction) continue;
     best_direction = direction;
     best = turned;

@@ -25,9 +25,9 @@ struct ChessboardCorners {
 };
 
 // The same board with `columns` x `rows` corners, turned so that columns count towards the picture's lower
-// right: to the right in a board that stands as the picture, downwards in one on its side; nothing where its
-// sides are others. A board whose colours do not change under half a turn looks the same upside down, so this
-// is a convention.
+// right: to the right in a board that stands as the picture, downwards in one on its side, to the right in a
+// square one; nothing where its sides are others. A board whose colours do not change under half a turn looks
+// the same upside down, so this is a convention.
 std::optional<ChessboardCorners> turned_upright(const ChessboardCorners& board, int columns, int rows);
 
 // Boards that grow from the saddle points, largest first: neighbouring corners lie where the ones before

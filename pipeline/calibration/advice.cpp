@@ -1,5 +1,7 @@
 #include "pipeline/calibration/advice.hpp"
 
+#include "pipeline/calibration/rig_uncertainty.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +25,9 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double few_tilts_degrees = 15;  // largest angle between two boards
 constexpr double one_distance = 0.1;      // largest over smallest, less one
 constexpr double nearly_parallel_degrees = 8;
-constexpr double same_place = 0.15;      // see distance_between
+constexpr double same_place = 0.15;  // see distance_between
+constexpr double unmoved_degrees = 1;
+constexpr double unmoved_place = 0.02;
 constexpr double little_coverage = 0.5;  // of the picture's width or height
 constexpr double poor_focal = 0.003;     // relative
 constexpr double worth_while = 0.7;      // of the uncertainty left by one more pose
@@ -86,26 +90,6 @@ Vector2d coverage_of(const AdjustmentProblem& problem, Size camera) {
     }
   }
   return (high - low).cwiseQuotient(Vector2d(camera.width, camera.height));
-}
-
-// Relative variances of both focal lengths and the baseline under an information matrix.
-double uncertainty(const AdjustmentProblem& problem, const Adjustment& fit, const MatrixXd& information) {
-  Adjustment with = fit;
-  with.information = information;
-  const MatrixXd covariance = covariance_of(with);
-  const Calibration& calibration = fit.rig.calibration;
-  double sum = 0;
-  for (const int parameter :
-       {camera_parameter(LensParameter::focal), projector_parameter(LensParameter::focal)}) {
-    const int at = position_in(problem.free, parameter);
-    const double value = parameter_value(calibration, parameter);
-    sum += covariance(at, at) / (value * value);
-  }
-  const int translation = position_in(problem.free, extrinsic_parameter(3));
-  const Vector3d direction = calibration.projector_from_camera.translation.normalized();
-  sum += direction.dot(covariance.block<3, 3>(translation, translation) * direction) /
-         calibration.projector_from_camera.translation.squaredNorm();
-  return std::sqrt(std::max(sum, 0.0));
 }
 
 struct Suggestion {
@@ -219,16 +203,16 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Supporte
   if (!names.empty())
     lines.push_back("left at their usual values, from which these poses cannot tell them: " + names);
   const Spread spread = spread_of(problem, fit);
-  const double before = uncertainty(problem, fit, fit.information);
+  const double before = relative_uncertainty(problem.free, fit.rig.calibration, fit.information);
   double best = before;
   std::string words;
   for (const Suggestion& suggestion : suggestions(problem, fit, spread)) {
     const auto view = view_of(fit.rig.calibration, problem.board, suggestion.camera_from_board);
     if (!view) continue;
-    const double after = uncertainty(
-        problem, fit,
+    const double after = relative_uncertainty(
+        problem.free, fit.rig.calibration,
         fit.information + information_of_pose(problem, fit.rig.calibration, suggestion.camera_from_board,
-                                              *view, fit.camera_sigma_px, fit.projector_sigma_px));
+                                              *view, fit.sigmas));
     if (after >= best) continue;
     best = after;
     words = suggestion.words;
@@ -238,6 +222,20 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Supporte
                     ": focal lengths and baseline, known to " + text("%.2g %%", 100 * before) +
                     " together, would be known to " + text("%.2g %%", 100 * best));
   return lines;
+}
+
+int different_poses(const AdjustmentProblem& problem, const std::vector<RigidTransform>& camera_from_board) {
+  int count = 0;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i) {
+    if (!problem.used[i]) continue;
+    bool repeats = false;
+    for (std::size_t k = 0; k < i && !repeats; ++k)
+      repeats = problem.used[k] &&
+                angle_between(camera_from_board[i], camera_from_board[k]) < unmoved_degrees &&
+                distance_between(problem.board, camera_from_board[i], camera_from_board[k]) < unmoved_place;
+    count += repeats ? 0 : 1;
+  }
+  return count;
 }
 
 std::vector<std::string> name_repeated(const AdjustmentProblem& problem,

@@ -18,4 +18,7 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Supporte
 std::vector<std::string> name_repeated(const AdjustmentProblem& problem,
                                        const std::vector<RigidTransform>& camera_from_board);
 
+// Poses that are used, those counted once in which the board was not moved at all.
+int different_poses(const AdjustmentProblem& problem, const std::vector<RigidTransform>& camera_from_board);
+
 }  // namespace bodyscan

@@ -4,7 +4,9 @@
 #include "pipeline/base/parallel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <Eigen/Cholesky>
@@ -38,7 +40,7 @@ struct PoseEquations {
 };
 
 double variance_of(const Adjustment& state, const PoseObservation& pose, std::size_t residual) {
-  const double sigma = residual < camera_count(pose) ? state.camera_sigma_px : state.projector_sigma_px;
+  const double sigma = state.sigmas.of(kind_of(pose, residual));
   return sigma * sigma;
 }
 
@@ -227,26 +229,32 @@ void converge(const AdjustmentProblem& problem, Adjustment& state, const std::ve
 // Standard deviation of one coordinate from the lengths of two-dimensional residuals: their median is
 // sqrt(2 ln 2) times it.
 double robust_sigma(const std::vector<double>& lengths) {
-  if (lengths.empty()) return 1;
   return std::max(median(lengths) / std::sqrt(2 * std::log(2.0)), min_sigma_px);
+}
+
+CornerSigmas sigmas_of(const std::map<CornerKind, std::vector<double>>& lengths) {
+  const auto of = [&](CornerKind kind, CornerKind otherwise) {
+    auto found = lengths.find(kind);
+    if (found == lengths.end()) found = lengths.find(otherwise);
+    return found == lengths.end() ? 1 : robust_sigma(found->second);
+  };
+  return {of(CornerKind::camera, CornerKind::camera), of(CornerKind::captured, CornerKind::projected),
+          of(CornerKind::projected, CornerKind::captured)};
 }
 
 // New spreads and weights; whether they moved noticeably.
 bool reweigh(const AdjustmentProblem& problem, Adjustment& state) {
   std::vector<std::vector<Vector2d>> residuals(problem.poses.size());
-  std::vector<double> camera;
-  std::vector<double> projector;
+  std::map<CornerKind, std::vector<double>> lengths;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     if (!problem.used[i]) continue;
     predict_residuals(state.rig.calibration, state.rig.camera_from_board[i], problem.board, problem.poses[i],
                       residuals[i]);
     for (std::size_t k = 0; k < residuals[i].size(); ++k)
-      (k < camera_count(problem.poses[i]) ? camera : projector).push_back(residuals[i][k].norm());
+      lengths[kind_of(problem.poses[i], k)].push_back(residuals[i][k].norm());
   }
-  const double camera_before = state.camera_sigma_px;
-  const double projector_before = state.projector_sigma_px;
-  state.camera_sigma_px = robust_sigma(camera);
-  state.projector_sigma_px = robust_sigma(projector);
+  const CornerSigmas before = state.sigmas;
+  state.sigmas = sigmas_of(lengths);
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
     for (std::size_t k = 0; k < residuals[i].size(); ++k) {
       const double sigmas = residuals[i][k].norm() / std::sqrt(variance_of(state, problem.poses[i], k));
@@ -254,8 +262,9 @@ bool reweigh(const AdjustmentProblem& problem, Adjustment& state) {
           sigmas > outlier_sigmas ? 0 : std::min(1.0, huber_sigmas / std::max(sigmas, 1e-9));
     }
   }
-  return std::abs(state.camera_sigma_px / camera_before - 1) > 1e-3 ||
-         std::abs(state.projector_sigma_px / projector_before - 1) > 1e-3;
+  return std::ranges::any_of(
+      std::array{CornerKind::camera, CornerKind::captured, CornerKind::projected},
+      [&](CornerKind kind) { return std::abs(state.sigmas.of(kind) / before.of(kind) - 1) > 1e-3; });
 }
 
 }  // namespace
@@ -264,8 +273,6 @@ Adjustment adjust(const AdjustmentProblem& problem, const RigEstimate& start) {
   const std::vector<int> free = free_parameters(problem.free);
   Adjustment state;
   state.rig = start;
-  state.camera_sigma_px = 1;
-  state.projector_sigma_px = 1;
   for (const PoseObservation& pose : problem.poses)
     state.weights.emplace_back(camera_count(pose) + projector_count(pose), 1.0);
   reweigh(problem, state);  // a pose that is far off must not draw the first fit to itself
@@ -286,23 +293,22 @@ Adjustment adjust(const AdjustmentProblem& problem, const RigEstimate& start) {
   return state;
 }
 
-MatrixXd covariance_of(const Adjustment& adjustment) {
-  const Eigen::Index size = adjustment.information.rows();
+MatrixXd covariance_of(const MatrixXd& information) {
+  const Eigen::Index size = information.rows();
   // Scaled to a unit diagonal first: the parameters' units are far apart.
-  const VectorXd scale = adjustment.information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const MatrixXd scaled = scale.asDiagonal() * adjustment.information * scale.asDiagonal();
+  const VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
   return scale.asDiagonal() * scaled.ldlt().solve(MatrixXd::Identity(size, size)) * scale.asDiagonal();
 }
 
 MatrixXd information_of_pose(const AdjustmentProblem& problem, const Calibration& calibration,
                              const RigidTransform& camera_from_board, const PoseObservation& pose,
-                             double camera_sigma_px, double projector_sigma_px) {
+                             const CornerSigmas& sigmas) {
   const std::vector<int> free = free_parameters(problem.free);
   const MatrixXd jacobian = derivatives(problem, calibration, camera_from_board, pose, free);
   VectorXd weights(jacobian.rows());
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
-    const bool camera = i < 2 * static_cast<Eigen::Index>(camera_count(pose));
-    const double sigma = camera ? camera_sigma_px : projector_sigma_px;
+    const double sigma = sigmas.of(kind_of(pose, static_cast<std::size_t>(i) / 2));
     weights[i] = 1 / (sigma * sigma);
   }
   return marginalised(jacobian.transpose() * weights.asDiagonal() * jacobian,

@@ -21,23 +21,22 @@ struct AdjustmentProblem {
 
 struct Adjustment {
   RigEstimate rig;
-  ResidualWeights weights;     // relative to 1 / variance
-  double camera_sigma_px = 0;  // robust standard deviation of one coordinate
-  double projector_sigma_px = 0;
+  ResidualWeights weights;      // relative to 1 / variance
+  CornerSigmas sigmas;          // robust; a kind that is not there has the other one's of the projector
   Eigen::MatrixXd information;  // of the free shared parameters, the board poses marginalised out
 };
 
 // Weighted nonlinear least squares (Levenberg and Marquardt) over the free parameters, from `start`, with
-// Huber's weights about the robust spread of camera and projector residuals, and none beyond six standard
+// Huber's weights about the robust spread of each kind of corner, and none beyond six standard
 // deviations (Huber 1981). Poses not used keep their start.
 Adjustment adjust(const AdjustmentProblem& problem, const RigEstimate& start);
 
-// Covariance of the free shared parameters in the order of their bits.
-Eigen::MatrixXd covariance_of(const Adjustment& adjustment);
+// Covariance of the free shared parameters, in the order of their bits, from an information about them.
+Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information);
 
 // Information about the shared parameters that one more pose of the board would add, seen as it would be.
 Eigen::MatrixXd information_of_pose(const AdjustmentProblem& problem, const Calibration& calibration,
                                     const RigidTransform& camera_from_board, const PoseObservation& pose,
-                                    double camera_sigma_px, double projector_sigma_px);
+                                    const CornerSigmas& sigmas);
 
 }  // namespace bodyscan

@@ -63,6 +63,10 @@ struct CalibrationReport {
   double square_spread_percent = 0;
   std::optional<double> leave_one_out_square_error_percent;
 
+  // Of focal lengths and baseline together, and what that is worth; nothing where the lenses were kept.
+  std::optional<double> relative_uncertainty;
+  std::string verdict;
+
   std::vector<ParameterReport> parameters;
   std::vector<PoseReport> poses;
   std::vector<std::string> advice;  // what the poses cannot determine, and which pose would help most

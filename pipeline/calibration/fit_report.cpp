@@ -4,6 +4,7 @@
 #include "pipeline/calibration/advice.hpp"
 #include "pipeline/calibration/initial_guess.hpp"
 #include "pipeline/calibration/pose_agreement.hpp"
+#include "pipeline/calibration/rig_uncertainty.hpp"
 #include "pipeline/calibration/square_check.hpp"
 
 #include <algorithm>
@@ -110,7 +111,7 @@ ParameterReport baseline_of(const Calibration& calibration, const ParameterMask&
 
 std::vector<ParameterReport> parameters_of(const AdjustmentProblem& problem, const SupportedFit& supported) {
   const Calibration& calibration = supported.fit.rig.calibration;
-  const Eigen::MatrixXd covariance = covariance_of(supported.fit);
+  const Eigen::MatrixXd covariance = covariance_of(supported.fit.information);
   const Eigen::AngleAxisd turn(calibration.projector_from_camera.rotation);
   std::vector<ParameterReport> parameters;
   for (int p = 0; p < shared_parameters; ++p) {
@@ -144,6 +145,15 @@ void report_squares(const AdjustmentProblem& problem, const Adjustment& fit, Cal
   const SideFigures figures = figures_of(sides);
   report.square_error_percent = figures.error_percent;
   report.square_spread_percent = figures.spread_percent;
+}
+
+// Root mean squares over the used poses, the projector's over those of this pose's kind.
+PoseMisfit usual_misfit(const AdjustmentProblem& problem, const CalibrationReport& report, std::size_t pose) {
+  Rms alike;
+  for (std::size_t i = 0; i < problem.poses.size(); ++i)
+    if (problem.used[i] && is_pair(problem.poses[i]) == is_pair(problem.poses[pose]))
+      alike.add(report.poses[i].projector_rms_px * report.poses[i].projector_rms_px);
+  return {report.camera_rms_px, alike.value(), {}};
 }
 
 }  // namespace
@@ -181,6 +191,10 @@ CalibrationReport report_of(const AdjustmentProblem& problem, const SupportedFit
   report.joint_rms_px = joint.value();
   report_squares(problem, fit, report);
   report.parameters = parameters_of(problem, supported);
+  if (problem.free[static_cast<std::size_t>(camera_parameter(LensParameter::focal))]) {
+    report.relative_uncertainty = relative_uncertainty(problem.free, fit.rig.calibration, fit.information);
+    report.verdict = verdict_on(*report.relative_uncertainty);
+  }
   return report;
 }
 
@@ -200,8 +214,7 @@ double report_leave_one_out(const AdjustmentProblem& problem, const Adjustment& 
     others.used[i] = false;
     const Adjustment without = adjust(others, fit.rig);
     left[i].misfit = misfit_of_pose(problem, without, i);
-    left[i].surprise =
-        surprise_of(problem, without, i, left[i].misfit, {report.camera_rms_px, report.projector_rms_px, {}});
+    left[i].surprise = surprise_of(problem, without, i, left[i].misfit, usual_misfit(problem, report, i));
     append_sides(problem, without.rig.calibration, fitting_corners(problem.poses[i], fit.weights[i]),
                  left[i].sides);
   });

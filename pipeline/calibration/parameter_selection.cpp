@@ -122,7 +122,7 @@ SupportedFit adjust_supported(AdjustmentProblem& problem, const RigEstimate& sta
   const std::vector<Group> groups = droppable_groups();
   SupportedFit result{adjust(problem, start), {}};
   for (;;) {
-    const MatrixXd covariance = covariance_of(result.fit);
+    const MatrixXd covariance = covariance_of(result.fit.information);
     const Group* weakest = nullptr;
     double least = min_chi_squared;
     for (const Group& group : groups) {

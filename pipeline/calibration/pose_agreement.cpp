@@ -16,6 +16,8 @@ using Eigen::Vector2d;
 constexpr double suspicious = 1.7;  // times the poses' median misfit
 constexpr double other_board_percent = 1.5;
 constexpr double outlier_sigmas = 6;
+constexpr double usual_pair_px = 0.25;  // in the projector, of good pictures
+constexpr double usual_capture_px = 0.1;
 
 // Without single false corners: lengths far beyond what the median of all would let expect.
 double root_mean_square(const std::vector<Vector2d>& residuals, std::size_t begin, std::size_t end) {
@@ -41,16 +43,18 @@ PoseMisfit misfit_at(const AdjustmentProblem& problem, const Calibration& calibr
           root_mean_square(residuals, camera_count(seen), residuals.size()), camera_from_board};
 }
 
-// Medians over the used poses, `without` left out.
-PoseMisfit typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t without) {
+// Medians over the other poses that are used; the projector's over those of its kind, and where there are
+// none as large as that kind may be.
+PoseMisfit typical_misfit(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t pose) {
   std::vector<double> camera;
   std::vector<double> projector;
   for (std::size_t i = 0; i < problem.poses.size(); ++i) {
-    if (!problem.used[i] || i == without) continue;
+    if (!problem.used[i] || i == pose) continue;
     const PoseMisfit misfit = misfit_at(problem, fit.rig.calibration, fit.rig.camera_from_board[i], i);
     camera.push_back(misfit.camera_px);
-    projector.push_back(misfit.projector_px);
+    if (is_pair(problem.poses[i]) == is_pair(problem.poses[pose])) projector.push_back(misfit.projector_px);
   }
+  if (projector.empty()) projector.push_back(is_pair(problem.poses[pose]) ? usual_pair_px : usual_capture_px);
   return {median(camera), median(projector), {}};
 }
 
@@ -84,12 +88,15 @@ std::string reason_of(const AdjustmentProblem& problem, const Adjustment& withou
            fixed_text(typical.camera_px, 2) + " px in other poses): bent, blurred, or another board";
   return "camera and projector disagree by " + fixed_text(misfit.projector_px, 2) + " px (" +
          fixed_text(typical.projector_px, 2) + " px in other poses): the board moved " +
-         (problem.poses[pose].projected.empty()
-              ? "during the sequence"
-              : "between the pictures, or the projector showed something else");
+         (is_pair(problem.poses[pose]) ? "between the pictures, or the projector showed something else"
+                                       : "during the sequence");
 }
 
 }  // namespace
+
+bool is_pair(const PoseObservation& pose) {
+  return !pose.projected.empty();
+}
 
 PoseMisfit misfit_of_pose(const AdjustmentProblem& problem, const Adjustment& fit, std::size_t pose) {
   AdjustmentProblem alone{problem.board, problem.poses, std::vector<bool>(problem.poses.size(), false), {}};
@@ -107,17 +114,16 @@ double surprise_of(const AdjustmentProblem& problem, const Adjustment& without, 
   // worst all of it to one device.
   const PoseObservation& seen = problem.poses[pose];
   const auto own = 2 * static_cast<double>(std::min(camera_count(seen), projector_count(seen)));
-  const double added = (covariance_of(without) *
-                        information_of_pose(problem, without.rig.calibration, misfit.camera_from_board, seen,
-                                            without.camera_sigma_px, without.projector_sigma_px))
-                           .trace();
+  const double added =
+      (covariance_of(without.information) *
+       information_of_pose(problem, without.rig.calibration, misfit.camera_from_board, seen, without.sigmas))
+          .trace();
   return ratio(misfit, typical) / std::sqrt(1 + std::max(0.0, added) / std::max(own, 1.0));
 }
 
-std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit) {
+std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit, int fewest) {
   std::vector<std::string> reasons(problem.poses.size());
-  while (std::ranges::count(problem.used, true) > fewest_poses) {
-    const PoseMisfit typical = typical_misfit(problem, fit, problem.poses.size());
+  while (std::ranges::count(problem.used, true) > fewest) {
     double worst_surprise = 0;
     std::size_t worst = 0;
     Adjustment best_without;
@@ -126,7 +132,7 @@ std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjus
     for (std::size_t i = 0; i < problem.poses.size(); ++i) {
       if (!problem.used[i]) continue;
       const PoseMisfit here = misfit_at(problem, fit.rig.calibration, fit.rig.camera_from_board[i], i);
-      if (ratio(here, typical) < suspicious) continue;
+      if (ratio(here, typical_misfit(problem, fit, i)) < suspicious) continue;
       AdjustmentProblem others = problem;
       others.used[i] = false;
       const Adjustment without = adjust(others, fit.rig);

@@ -7,9 +7,13 @@
 
 namespace bodyscan {
 
-constexpr int fewest_poses = 3;
+constexpr int fewest_poses = 3;           // that tell everything
+constexpr int fewest_kept_poses = 2;      // with kept lenses one would do, but nothing checks it
 constexpr double disagreeing = 4;         // times what the other poses have
 constexpr double least_misfit_px = 0.03;  // less is nothing to complain of
+
+// Pairs of pictures are by their nature less exact than Gray-code captures: each is compared with its like.
+bool is_pair(const PoseObservation& pose);
 
 // A pose's residuals under a calibration, its own board pose fitted to them: root mean square of the lengths,
 // px.
@@ -26,8 +30,8 @@ double surprise_of(const AdjustmentProblem& problem, const Adjustment& without, 
                    const PoseMisfit& misfit, const PoseMisfit& typical);
 
 // Leaves out poses that do not agree with the rest: those that surprise a calibration from the others.
-// Returns a reason a pose, empty for those that stay; problem.used and `fit` follow. At least three poses
+// Returns a reason a pose, empty for those that stay; problem.used and `fit` follow. At least `fewest` poses
 // stay.
-std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit);
+std::vector<std::string> leave_out_disagreeing(AdjustmentProblem& problem, Adjustment& fit, int fewest);
 
 }  // namespace bodyscan

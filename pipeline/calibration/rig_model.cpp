@@ -184,4 +184,15 @@ void predict_residuals(const Calibration& calibration, const RigidTransform& cam
                     residuals);
 }
 
+CornerKind kind_of(const PoseObservation& pose, std::size_t residual) {
+  if (residual < camera_count(pose)) return CornerKind::camera;
+  return residual < camera_count(pose) + pose.in_projector.size() ? CornerKind::captured
+                                                                  : CornerKind::projected;
+}
+
+double CornerSigmas::of(CornerKind kind) const {
+  if (kind == CornerKind::camera) return camera_px;
+  return kind == CornerKind::captured ? captured_px : projected_px;
+}
+
 }  // namespace bodyscan

@@ -71,6 +71,23 @@ std::vector<Eigen::Vector3d> beam_rays(const Lens& camera, const PoseObservation
 // Where a camera ray meets the board's plane, mm in the camera frame.
 Eigen::Vector3d on_board_plane(const RigidTransform& camera_from_board, const Eigen::Vector3d& camera_ray);
 
+// What a residual is about.
+enum class CornerKind {
+  camera,    // a printed corner in the camera's picture
+  captured,  // a printed corner in the projector's, by Gray code
+  projected  // a projected corner
+};
+CornerKind kind_of(const PoseObservation& pose, std::size_t residual);
+
+// Standard deviations of one coordinate of each kind, px.
+struct CornerSigmas {
+  double camera_px = 1;
+  double captured_px = 1;
+  double projected_px = 1;
+
+  [[nodiscard]] double of(CornerKind kind) const;
+};
+
 inline std::size_t camera_count(const PoseObservation& pose) {
   return pose.in_camera.size();
 }

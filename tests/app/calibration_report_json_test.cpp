@@ -37,6 +37,8 @@ CalibrationReport sample_calibration_report() {
   report.square_error_percent = -0.125;
   report.square_spread_percent = 0.75;
   report.leave_one_out_square_error_percent = 0.0625;
+  report.relative_uncertainty = 0.0009765625;
+  report.verdict = "good";
   report.parameters = {{"camera fx", 5500.5, 0.5}, {"camera k3", 0, std::nullopt, false}};
   PoseReport pose;
   pose.name = "pose 0";
@@ -65,6 +67,7 @@ TEST(CalibrationReportJson, HoldsEverythingUnderItsKey) {
     "corners": 126, "corners_left_out": 5, "all_camera_rms_px": 0.5, "all_projector_rms_px": 0.75,
     "leave_one_out_camera_px": 1.0, "leave_one_out_projector_px": 2.0,
     "square_error_percent": -0.125, "square_spread_percent": 0.75, "leave_one_out_square_error_percent": 0.0625,
+    "relative_uncertainty": 0.0009765625, "verdict": "good",
     "advice": ["tilt the board more"],
     "calibration": {
       "camera": {"size": [4288, 2848], "fx": 5500.5, "fy": 5501.0, "cx": 2143.0, "cy": 1424.0,

@@ -73,13 +73,17 @@ TEST(TurnedUpright, ColumnsThatRunUpAndDownCountDownwards) {
 }
 
 TEST(TurnedUpright, ASquareBoardHasItsColumnsAlongThePicture) {
-  const ChessboardCorners upright = grid(4, 4, {20, 5}, {-5, 20});
-  ChessboardCorners quarter{4, 4, {}};
-  for (int column = 0; column < 4; ++column)
-    for (int row = 3; row >= 0; --row) quarter.corners.push_back(upright.at(column, row));
-  const auto turned = turned_upright(quarter, 4, 4);
-  ASSERT_TRUE(turned);
-  expect_same(*turned, upright);
+  for (const double slope : {5.0, 0.1, 0.0, -0.1, -5.0}) {
+    const ChessboardCorners upright = grid(4, 4, {20, slope}, {-slope, 20});
+    ChessboardCorners quarter{4, 4, {}};
+    for (int column = 0; column < 4; ++column)
+      for (int row = 3; row >= 0; --row) quarter.corners.push_back(upright.at(column, row));
+    for (const ChessboardCorners& board : {upright, quarter}) {
+      const auto turned = turned_upright(board, 4, 4);
+      ASSERT_TRUE(turned);
+      expect_same(*turned, upright);
+    }
+  }
 }
 
 TEST(TurnedUpright, NothingForOtherSides) {

@@ -164,5 +164,39 @@ TEST(BadPoses, WithoutAPictureOfTheBoardHaveNoFigures) {
   EXPECT_TRUE(result->report.poses[1].located);
 }
 
+// Shot again and again, a board that is not moved tells what one pose tells.
+TEST(BadPoses, TheSamePoseThreeTimesIsOne) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SessionOptions options;
+    options.poses = 3;
+    SyntheticSession session = make_session(options);
+    for (unsigned i = 1; i < 3; ++i) {
+      PoseObservation& pose = session.request.poses[i].observation;
+      const std::string name = pose.name;
+      pose = observe(session.truth, session.board, session.camera_from_board[0], options, PoseKind::gray_code,
+                     10 * seed + i);
+      pose.name = name;
+    }
+    const auto result = calibrate(session.request);
+    ASSERT_FALSE(result);
+    for (const char* part : {"at least 3 good poses", "pose 2: nearly parallel to pose 0"})
+      EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+  }
+}
+
+TEST(BadPoses, AnotherProjectedBoardThanTheSessionSaysIsRefused) {
+  SessionOptions options;
+  options.poses = 6;
+  options.kind = [](int i) { return i < 3 ? PoseKind::gray_code : PoseKind::pair; };
+  SyntheticSession session = make_session(options);
+  const Eigen::Vector2d first = options.projected.first_corner_px;
+  for (CalibrationPose& pose : session.request.poses)
+    for (Beam& beam : pose.observation.projected)
+      beam.projector_px = first + 1.05 * (beam.projector_px - first);
+  const auto result = calibrate(session.request);
+  ASSERT_FALSE(result);
+  EXPECT_NE(result.error().message.find("projected"), std::string::npos) << result.error().message;
+}
+
 }  // namespace
 }  // namespace bodyscan

@@ -38,6 +38,36 @@ INSTANTIATE_TEST_SUITE_P(
                     Method{"mixed", [](int i) { return i % 2 == 0 ? PoseKind::gray_code : PoseKind::pair; }}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
+// Pairs are less exact than captures; that is no reason to leave them out.
+TEST(CalibratingMixed, KeepsPairsThatAreLessExactThanCaptures) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    SessionOptions options;
+    options.kind = [](int i) { return i < 4 ? PoseKind::gray_code : PoseKind::pair; };
+    options.beam_noise_px = 0.35;
+    options.seed = seed;
+    const SyntheticSession session = make_session(options);
+    const auto result = calibrate(session.request);
+    ASSERT_TRUE(result) << result.error().message;
+    expect_near_truth(*result, session.truth, 1e-3);
+    for (const PoseReport& pose : result->report.poses) EXPECT_TRUE(pose.used) << pose.name << pose.reason;
+    EXPECT_LE(result->report.corners_left_out, 2);
+  }
+}
+
+TEST(CalibratingMixed, ALonePairIsKeptAndABadOneIsNot) {
+  SessionOptions options;
+  options.kind = [](int i) { return i == 2 ? PoseKind::pair : PoseKind::gray_code; };
+  options.beam_noise_px = 0.25;
+  SyntheticSession session = make_session(options);
+  const auto good = calibrate(session.request);
+  ASSERT_TRUE(good) << good.error().message;
+  EXPECT_TRUE(good->report.poses[2].used) << good->report.poses[2].reason;
+  for (Beam& beam : session.request.poses[2].observation.projected) beam.camera_px.y() += 8;
+  const auto bad = calibrate(session.request);
+  ASSERT_TRUE(bad) << bad.error().message;
+  EXPECT_FALSE(bad->report.poses[2].used);
+}
+
 // Standard deviations are worth their name: over many sessions the errors are as large as they say.
 TEST(CalibratingMixed, KnowsItsUncertainty) {
   double squares = 0;
@@ -189,7 +219,7 @@ SyntheticSession rolled_session(double turn, const std::function<PoseKind(int)>&
     if (seen.projected.empty()) continue;
     const Eigen::Vector2d along = seen.projected[1].camera_px - seen.projected[0].camera_px;
     if (along.x() + along.y() > 0) continue;
-    for (Beam& beam : seen.projected) beam.projector_px = shown_board.half_turned(beam.projector_px);
+    for (Beam& beam : seen.projected) beam.projector_px = options.projected.half_turned(beam.projector_px);
   }
   return session;
 }
@@ -220,6 +250,46 @@ TEST(CalibratingRolled, PairsAloneSayThatTheyDoNotTellUpsideDown) {
   EXPECT_TRUE(std::ranges::any_of(result->report.advice, [](const std::string& line) {
     return line.find("upside down") != std::string::npos;
   }));
+}
+
+// A capture that is not used tells nothing about the pairs.
+TEST(CalibratingPairs, ABlurredCaptureDoesNotTurnTheProjector) {
+  SessionOptions options;
+  options.poses = 6;
+  options.kind = [](int i) { return i == 5 ? PoseKind::gray_code : PoseKind::pair; };
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    options.seed = seed;
+    SyntheticSession session = make_session(options);
+    session.request.poses[5].edge_blur_px = 9;
+    const auto result = calibrate(session.request);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_FALSE(result->report.poses[5].used);
+    EXPECT_LT(
+        (result->calibration.projector_from_camera.rotation - session.truth.projector_from_camera.rotation)
+            .norm(),
+        0.02);
+    EXPECT_TRUE(std::ranges::any_of(result->report.advice, [](const std::string& line) {
+      return line.find("upside down") != std::string::npos;
+    }));
+  }
+}
+
+// It looks the same from all four sides.
+TEST(CalibratingPairs, ASquareProjectedBoardIsTurnedAsTheCapturesSay) {
+  SessionOptions options;
+  options.projected = {7, 7, {300, 180}, 70};
+  options.kind = [](int i) { return i < 3 ? PoseKind::gray_code : PoseKind::pair; };
+  for (int quarters = 0; quarters < 4; ++quarters) {
+    SyntheticSession session = make_session(options);
+    for (CalibrationPose& pose : session.request.poses)
+      for (Beam& beam : pose.observation.projected)
+        for (int i = 0; i < quarters; ++i)
+          beam.projector_px = options.projected.quarter_turned(beam.projector_px);
+    const auto result = calibrate(session.request);
+    ASSERT_TRUE(result) << result.error().message;
+    expect_near_truth(*result, session.truth, 1e-3);
+    for (const PoseReport& pose : result->report.poses) EXPECT_TRUE(pose.used) << pose.name << pose.reason;
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "pipeline/calibration/rig_model.hpp"
 #include "tests/pipeline/calibration/synthetic_session.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace bodyscan {
@@ -41,7 +43,7 @@ TEST(KeptLenses, TellWhichWayTheProjectedBoardStands) {
   SyntheticSession session = make_session(options);
   for (CalibrationPose& pose : session.request.poses)
     for (Beam& beam : pose.observation.projected)
-      beam.projector_px = shown_board.half_turned(beam.projector_px);
+      beam.projector_px = options.projected.half_turned(beam.projector_px);
   session.request.kept = {session.truth};
   session.request.kept->calibration.projector_from_camera.translation.x() += 20;
   const auto result = calibrate(session.request);
@@ -65,6 +67,54 @@ TEST(KeptLenses, ThatDoNotFitAreRefused) {
   ASSERT_FALSE(result);
   EXPECT_NE(result.error().message.find("kept lenses do not fit"), std::string::npos)
       << result.error().message;
+}
+
+// How well captures fitted says nothing about the pair that finds the projector again.
+TEST(KeptLenses, OfCapturesServeAPairToo) {
+  SessionOptions options;
+  options.poses = 1;
+  options.kind = [](int) { return PoseKind::pair; };
+  options.beam_noise_px = 0.3;
+  SyntheticSession session = make_session(options);
+  session.request.kept = {session.truth, 0.02, 0.02};
+  const auto result = calibrate(session.request);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_GT(result->report.projector_rms_px, 0.12);
+}
+
+TEST(KeptLenses, OneBadPoseOfThreeIsLeftOut) {
+  for (const PoseKind kind : {PoseKind::gray_code, PoseKind::pair}) {
+    SessionOptions options;
+    options.poses = 3;
+    options.kind = [=](int) { return kind; };
+    SyntheticSession session = make_session(options);
+    RigidTransform later = session.camera_from_board[1];
+    later.translation += Eigen::Vector3d(1, -2, 4);
+    const PoseObservation after = observe(session.truth, session.board, later, options, kind, 99);
+    session.request.poses[1].observation.in_projector = after.in_projector;
+    session.request.poses[1].observation.projected = after.projected;
+    session.request.kept = {session.truth};
+    const auto result = calibrate(session.request);
+    ASSERT_TRUE(result) << result.error().message;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(result->report.poses[i].used, i != 1) << i;
+    EXPECT_NE(result->report.poses[1].reason.find("moved"), std::string::npos);
+  }
+}
+
+TEST(KeptLenses, AProjectorFarFromWhereItStoodIsNoted) {
+  SessionOptions options;
+  options.poses = 2;
+  SyntheticSession session = make_session(options);
+  session.request.kept = {session.truth};
+  const auto told = [&] {
+    const auto result = calibrate(session.request);
+    return result && std::ranges::any_of(result->report.advice, [](const std::string& line) {
+             return line.find("mirrored") != std::string::npos;
+           });
+  };
+  EXPECT_FALSE(told());
+  session.request.kept->calibration.projector_from_camera.translation.x() *= -1;
+  EXPECT_TRUE(told());
 }
 
 }  // namespace

@@ -51,12 +51,13 @@ PoseObservation observe(const Calibration& rig, const PrintedBoard& board,
   const Eigen::Matrix3d camera_from_projector = rig.projector_from_camera.rotation.transpose();
   const Vector3d origin = -camera_from_projector * rig.projector_from_camera.translation;
   const Vector3d plane = camera_from_board.rotation.col(2);
-  for (int i = 0; i < shown_board.corner_count(); ++i) {
-    const Vector3d direction = camera_from_projector * rig.projector.ray(shown_board.corner_px(i));
+  for (int i = 0; i < options.projected.corner_count(); ++i) {
+    const Vector3d direction = camera_from_projector * rig.projector.ray(options.projected.corner_px(i));
     const double along = plane.dot(camera_from_board.translation - origin) / plane.dot(direction);
     const Vector3d point = origin + along * direction;
     pose.projected.push_back(
-        {shown_board.corner_px(i), rig.camera.project(point) + noise(options.camera_noise_px)});
+        {options.projected.corner_px(i),
+         rig.camera.project(point) + noise(options.beam_noise_px.value_or(options.camera_noise_px))});
   }
   return pose;
 }
@@ -67,7 +68,7 @@ SyntheticSession make_session(const SessionOptions& options) {
   session.request.board = session.board;
   session.request.camera = session.truth.camera.size;
   session.request.projector = session.truth.projector.size;
-  session.request.projected_board = shown_board;
+  session.request.projected_board = options.projected;
   const Vector3d middle(100, 75, 0);
   for (int i = 0; i < options.poses; ++i) {
     const double turn = 2 * std::numbers::pi * i / options.poses;

@@ -3,6 +3,7 @@
 #include "pipeline/calibration/calibrate.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace bodyscan {
@@ -21,6 +22,8 @@ struct SessionOptions {
   int poses = 7;
   double camera_noise_px = 0.05;
   double projector_noise_px = 0.03;
+  std::optional<double> beam_noise_px;  // of projected corners in the camera; nothing: as the printed ones'
+  ProjectedBoard projected{9, 7, {230, 180}, 70};
   double largest_tilt_degrees = 30;
   double distance_spread = 0.15;  // of a metre, both ways
   std::function<PoseKind(int pose)> kind = [](int) { return PoseKind::gray_code; };
@@ -36,8 +39,6 @@ SyntheticSession make_session(const SessionOptions& options = {});
 PoseObservation observe(const Calibration& rig, const PrintedBoard& board,
                         const RigidTransform& camera_from_board, const SessionOptions& options, PoseKind kind,
                         unsigned seed, double scale = 1);
-
-inline const ProjectedBoard shown_board{9, 7, {230, 180}, 70};  // projected on poses that are pairs
 
 double baseline(const Calibration& calibration);
 
