@@ -74,29 +74,28 @@ Expected<void> ModelMaking::begin(const char* stage) const {
   return check_interrupt();
 }
 
-Expected<GridMesh> make_surface(const ModelMaking& run, Correspondence correspondence) {
+Expected<void> draw_rows(const ModelMaking& run, const Correspondence& correspondence) {
+  if (!run.files.rows.wanted()) return {};
+  const Expected<void> drawn = run.files.rows.write_png(
+      coordinate_picture(correspondence.rows->coordinate, correspondence.projector.height));
+  run.clock.end_stage("rows_picture");
+  return drawn;
+}
+
+Expected<PointGrid> make_points(const ModelMaking& run, const Correspondence& correspondence) {
   run.report.pixels_lit = correspondence.pixels_lit;
   run.report.pixels_decoded = correspondence.pixels_decoded;
-
-  if (run.files.rows.wanted()) {
-    const ColorImage8 picture =
-        coordinate_picture(correspondence.rows->coordinate, correspondence.projector.height);
-    if (Expected<void> drawn = run.files.rows.write_png(picture); !drawn)
-      return tl::unexpected(drawn.error());
-    run.clock.end_stage("rows_picture");
-  }
-
   if (Expected<void> going_on = run.begin("triangulating"); !going_on)
     return tl::unexpected(going_on.error());
   Expected<PointGrid> points = triangulate(correspondence, run.calibration.calibration);
-  if (!points) return tl::unexpected(points.error());
-  correspondence = {};
   run.clock.end_stage("triangulate");
+  return points;
+}
 
+Expected<GridMesh> make_surface(const ModelMaking& run, PointGrid points) {
   if (Expected<void> going_on = run.begin("meshing"); !going_on) return tl::unexpected(going_on.error());
   SurfaceReport surface;
-  Expected<GridMesh> mesh =
-      build_surface(std::move(*points), run.calibration.calibration.camera, {}, surface);
+  Expected<GridMesh> mesh = build_surface(std::move(points), run.calibration.calibration.camera, {}, surface);
   if (!mesh) return tl::unexpected(mesh.error());
   describe(surface, run.report);
   run.clock.end_stage("surface");

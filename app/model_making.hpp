@@ -8,6 +8,7 @@
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
 #include "pipeline/decode/correspondence.hpp"
+#include "pipeline/geometry/point_grid.hpp"
 #include "pipeline/surface/grid_mesh.hpp"
 
 #include <string>
@@ -28,9 +29,13 @@ struct ModelMaking {
   [[nodiscard]] Expected<void> begin(const char* stage) const;
 };
 
-// Triangulates, meshes and cleans; draws the rows where that is asked for. Quality error: lit pixels give no
-// surface at all.
-Expected<GridMesh> make_surface(const ModelMaking& run, Correspondence correspondence);
+// Draws the rows where that is asked for.
+Expected<void> draw_rows(const ModelMaking& run, const Correspondence& correspondence);
+
+Expected<PointGrid> make_points(const ModelMaking& run, const Correspondence& correspondence);
+
+// Meshes and cleans. Quality error: lit pixels give no surface at all.
+Expected<GridMesh> make_surface(const ModelMaking& run, PointGrid points);
 
 struct WhiteAndBlack {
   ColorImage8 white;

@@ -46,7 +46,11 @@ Expected<WhiteAndBlack> load_photographs(const CaptureFolder& capture) {
 Expected<void> make_model(const ReconstructInputs& inputs, const ModelMaking& run) {
   Expected<Correspondence> correspondence = decode(inputs, run);
   if (!correspondence) return tl::unexpected(correspondence.error());
-  const Expected<GridMesh> mesh = make_surface(run, std::move(*correspondence));
+  if (const Expected<void> drawn = draw_rows(run, *correspondence); !drawn) return drawn;
+  Expected<PointGrid> points = make_points(run, *correspondence);
+  if (!points) return tl::unexpected(points.error());
+  *correspondence = {};
+  const Expected<GridMesh> mesh = make_surface(run, std::move(*points));
   if (!mesh) return tl::unexpected(mesh.error());
   if (Expected<void> going_on = run.begin("colouring"); !going_on) return going_on;
   const Expected<WhiteAndBlack> photographs = load_photographs(inputs.capture);
