@@ -74,7 +74,9 @@ class Worker {
       const auto exposed = device_->expose();
       return exposed ? Reply(Exposed{}) : Reply(exposed.error());
     }
+    transferring_ = true;
     const auto picture = std::holds_alternative<Fetch>(request) ? device_->fetch() : device_->preview();
+    transferring_ = false;
     return picture ? hand_over(*picture, attachment) : Reply(picture.error());
   }
 
@@ -104,10 +106,13 @@ class Worker {
   }
 
   // Missed ones do no harm: there are many.
-  void tell_progress() { (void)send(socket_, encode(number_, Reply(Progress{})), -1, Deadline{}); }
+  void tell_progress() {
+    if (transferring_) (void)send(socket_, encode(number_, Reply(Progress{})), -1, Deadline{});
+  }
 
   int socket_;
   std::uint32_t number_ = 0;
+  bool transferring_ = false;
   std::optional<Gphoto2Device> device_;
 };
 

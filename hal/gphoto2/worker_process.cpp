@@ -12,10 +12,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/pidfd.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+extern "C" {  // glibc 2.36 leaves that out
+#include <sys/pidfd.h>
+}
 
 namespace bodyscan::gphoto2 {
 namespace {
