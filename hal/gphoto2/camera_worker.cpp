@@ -41,6 +41,12 @@ bool is_worker_socket(int descriptor) {
   return ::getsockopt(descriptor, SOL_SOCKET, SO_TYPE, &type, &size) == 0 && type == SOCK_SEQPACKET;
 }
 
+// libgphoto2 writes there what its caller is told as well.
+void silence_standard_error() {
+  const UniqueFd nowhere(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+  if (nowhere) ::dup2(nowhere.get(), STDERR_FILENO);
+}
+
 class Worker {
  public:
   explicit Worker(int socket) : socket_(socket) {}
@@ -128,11 +134,12 @@ int run_camera_worker() {
     return 2;
   }
   die_with_parent();
+  std::signal(SIGPIPE, SIG_IGN);  // the camera may be at the other end of a network
   ::fcntl(worker_socket, F_SETFD, FD_CLOEXEC);
+  silence_standard_error();
   try {
     return Worker(worker_socket).serve();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bodyscan: %s: %s\n", worker_role, error.what());
+  } catch (const std::exception&) {
     return 1;
   }
 }

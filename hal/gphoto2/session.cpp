@@ -1,6 +1,8 @@
 #include "hal/gphoto2/session.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 namespace bodyscan::gphoto2 {
@@ -139,6 +141,7 @@ Outcome<Session> Session::open(const std::string& port, std::function<void()> on
   gp_camera_set_port_info(session.camera(), info);
   if (const int result = gp_camera_init(session.camera(), context); result < GP_OK)
     return session.failure(result, "cannot be opened");
+  session.answering_ = true;
   return session;
 }
 
@@ -204,7 +207,18 @@ tl::unexpected<Failure> Session::failure(int result, const std::string& doing) {
   std::string message = doing + ": " + reason_of(result);
   if (!listener_->last_error.empty())
     message += " (" + std::exchange(listener_->last_error, std::string()) + ")";
-  return tl::unexpected(Failure{is_lost(result), std::move(message)});
+  // A broken network link is told as an unspecified error too.
+  const bool lost = is_lost(result) || (answering_ && result == GP_ERROR && !still_answers());
+  return tl::unexpected(Failure{lost, std::move(message)});
+}
+
+bool Session::still_answers() {
+  CameraEventType type = GP_EVENT_UNKNOWN;
+  void* data = nullptr;
+  const int result = gp_camera_wait_for_event(camera(), 0, &type, &data, context());
+  std::free(data);
+  listener_->last_error.clear();
+  return result >= GP_OK;
 }
 
 }  // namespace bodyscan::gphoto2

@@ -59,11 +59,13 @@ class Session {
     std::function<void()> on_progress;
   };
   Session() = default;
+  bool still_answers();
 
   std::unique_ptr<Listener> listener_;
   ContextHandle context_;
   CameraHandle camera_;
   FoundCamera found_;
+  bool answering_ = false;
 };
 
 }  // namespace bodyscan::gphoto2

@@ -84,7 +84,10 @@ Opened surroundings() {
 // True where `behaviour` was one that answers the request itself.
 bool misbehave(std::string_view behaviour, std::uint32_t number) {
   if (behaviour == "hang") std::this_thread::sleep_for(std::chrono::hours(1));
-  if (behaviour == "die") std::raise(SIGSEGV);
+  if (behaviour == "die") {
+    std::signal(SIGSEGV, SIG_DFL);  // sanitizers handle it
+    std::raise(SIGSEGV);
+  }
   if (behaviour == "leave") std::exit(7);
   if (behaviour == "refuse") reply(number, Failure{false, "the mode dial is not on M: turn it to M"});
   if (behaviour == "lost") reply(number, Failure{true, "reading: I/O problem"});
