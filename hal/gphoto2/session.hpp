@@ -4,8 +4,10 @@
 #include "hal/gphoto2/worker_message.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tl/expected.hpp>
