@@ -19,6 +19,12 @@ endfunction()
 bodyscan_archive(ext::zlib ARCHIVES libz.a)
 bodyscan_archive(ext::png ARCHIVES libpng16.a USES ext::zlib)
 bodyscan_archive(ext::jpeg ARCHIVES libjpeg.a)
+# The one shared library: its camera drivers are loaded at run time.
+add_library(ext::gphoto2 INTERFACE IMPORTED GLOBAL)
+target_link_libraries(ext::gphoto2 INTERFACE gphoto2 gphoto2_port)
+if(NOT EXISTS ${BODYSCAN_ARCHIVES}/libgphoto2.so)
+  message(FATAL_ERROR "${BODYSCAN_ARCHIVES}/libgphoto2.so is missing: run tools/setup")
+endif()
 bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
 bodyscan_archive(ext::json)   # nlohmann, header-only
 bodyscan_archive(ext::cli11)  # header-only
