@@ -112,12 +112,12 @@ void RenderingDarkroom::render(const Job& job) {
     SharedBytes preview = world_->preview(job.light, job.gain, job.displacement);
     const std::lock_guard lock(mutex_);
     preview_ = std::move(preview);
-    return;
+  } else {
+    const Photo photo = world_->photograph(job.light, job.gain, job.displacement);
+    const std::lock_guard lock(mutex_);
+    if (job.photo == photos_) photo_ = photo;
+    keep(job, photo);
   }
-  const Photo photo = world_->photograph(job.light, job.gain, job.displacement);
-  const std::lock_guard lock(mutex_);
-  if (job.photo == photos_) photo_ = photo;
-  keep(job, photo);
   eventfd_write(woken_.get(), 1);
 }
 
