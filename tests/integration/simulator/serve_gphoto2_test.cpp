@@ -81,14 +81,40 @@ TEST(ServeGphoto2, CapturesToRamWhatTheProjectorShows) {
   EXPECT_GT(mean_code(world.folder() / "white.jpg"), 40);
 }
 
-TEST(ServeGphoto2, CapturesToTheCard) {
-  ServedWorld world(small_world);
+std::vector<std::string> with_fault(const std::string& fault) {
+  std::vector<std::string> options = small_world;
+  options.insert(options.end(), {"--fault", fault});
+  return options;
+}
+
+TEST(ServeGphoto2, CapturesToTheCardWhileTheProjectorChangesItsMode) {
+  ServedWorld world(with_fault("projector-mode@1"));
+  simulator::ProjectorClient projector(world.projector());
+  EXPECT_EQ(projector.greet().width, 256U);
   const Finished captured = world.gphoto2(
       {"--set-config", "capturetarget=1", "--capture-image-and-download", "--filename", "black.jpg"});
   EXPECT_EQ(captured.status, 0) << captured.output;
   EXPECT_TRUE(holds(captured.output, "DCIM/100D5000/DSC_0001.JPG"));
   EXPECT_EQ(simulator::read_color_image(world.folder() / "black.jpg").value().size(), (Size{429, 285}));
   EXPECT_LT(mean_code(world.folder() / "black.jpg"), 30);
+  EXPECT_TRUE(projector.hung_up());
+  EXPECT_EQ(simulator::ProjectorClient(world.projector()).greet().width, 800U);
+}
+
+TEST(ServeGphoto2, AShotUnplugsTheProjector) {
+  ServedWorld world(with_fault("projector-gone@1"));
+  simulator::ProjectorClient projector(world.projector());
+  projector.greet();
+  EXPECT_EQ(world.gphoto2({"--trigger-capture"}).status, 0);
+  EXPECT_TRUE(projector.hung_up());
+  EXPECT_FALSE(simulator::ProjectorClient(world.projector()).connected());
+}
+
+TEST(ServeGphoto2, OffManualTheShutterCannotBeSet) {
+  ServedWorld world(with_fault("dial"));
+  EXPECT_TRUE(holds(world.gphoto2({"--get-config", "expprogram"}).output, "Current: P"));
+  EXPECT_TRUE(holds(world.gphoto2({"--get-config", "shutterspeed2"}).output, "Readonly: 1"));
+  EXPECT_NE(world.gphoto2({"--set-config", "shutterspeed2=1/15"}).status, 0);
 }
 
 TEST(ServeGphoto2, NoThreadAndNoDescriptorStaysBehindAClient) {
