@@ -1,6 +1,9 @@
 #include "tools/simulator/command_options.hpp"
 
+#include "tools/simulator/subjects.hpp"
+
 #include <charconv>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -19,12 +22,36 @@ Size to_size(const std::string& text) {
 
 }  // namespace
 
-void add_rig_options(CLI::App& command, RigOptions& rig) {
+void add_subject_options(CLI::App& command, RenderOptions& options) {
+  command
+      .add_option("--subject", options.subject, "FILE.obj or builtin:NAME (" + builtin_subject_names() + ")")
+      ->required();
+  command
+      .add_option("--material", options.material, "own (as the subject has it), matt (albedo 0.82) or skin")
+      ->capture_default_str();
+  command.add_option("--scale-subject", options.subject_scale, "mm a unit of the subject")
+      ->capture_default_str();
+  command
+      .add_option_function<std::vector<double>>(
+          "--pose",
+          [&options](const std::vector<double>& pose) {
+            options.pose_rotation = {pose[0], pose[1], pose[2]};
+            options.pose_translation = {pose[3], pose[4], pose[5]};
+          },
+          "rotation vector in degrees about the subject's middle, then mm off 1.05 m before the "
+          "camera: RX,RY,RZ,X,Y,Z")
+      ->delimiter(',')
+      ->expected(6);
+  command.add_option("--detail", options.detail, "longest triangle side of built-in body parts, mm")
+      ->capture_default_str();
+}
+
+void add_rig_options(CLI::App& command, RigOptions& rig, const std::string& projector_size) {
   command.add_option("--scale", rig.scale, "camera pixels of a built-in rig over the full 4288 x 2848")
       ->capture_default_str();
   command
       .add_option_function<std::string>(
-          "--projector", [&rig](const std::string& text) { rig.projector = to_size(text); },
+          projector_size, [&rig](const std::string& text) { rig.projector = to_size(text); },
           "projector size of a built-in rig")
       ->default_str(std::to_string(rig.projector.width) + "x" + std::to_string(rig.projector.height));
   command
@@ -61,7 +88,7 @@ void add_light_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
 }
 
-void add_camera_options(CLI::App& command, RenderOptions& options) {
+void add_sensor_options(CLI::App& command, RenderOptions& options) {
   command.add_option("--rays", options.rays, "rays a side of a pixel")->capture_default_str();
   command.add_option("--lens-blur", options.lens_blur, "camera blur, standard deviation in camera px")
       ->capture_default_str();
@@ -69,6 +96,11 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
       ->capture_default_str();
   command.add_option("--read-noise", options.read_noise, "electrons")->capture_default_str();
   command.add_option("--seed", options.seed, "of the noise")->capture_default_str();
+  command.add_option("--jpeg-quality", options.jpeg_quality, "1 to 100")->capture_default_str();
+}
+
+void add_camera_options(CLI::App& command, RenderOptions& options) {
+  add_sensor_options(command, options);
   command
       .add_option_function<std::string>(
           "--frame-format",
@@ -78,7 +110,6 @@ void add_camera_options(CLI::App& command, RenderOptions& options) {
           "jpeg (4:2:2) or png")
       ->check(CLI::IsMember({"jpeg", "png"}))
       ->default_str("jpeg");
-  command.add_option("--jpeg-quality", options.jpeg_quality, "1 to 100")->capture_default_str();
 }
 
 }  // namespace bodyscan::simulator

@@ -18,6 +18,7 @@ int run(int argc, char** argv) {
   add_render_command(app, action);
   add_calibration_command(app, action);
   add_rig_command(app, action);
+  add_serve_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -5,11 +5,13 @@
 
 namespace bodyscan::simulator {
 
-// The light of one projected pattern along the axis in which it changes, as a share of white's.
+// The light of a projected picture along the one axis in which it changes, as a share of white's.
 class ProjectedLight {
  public:
   // The blurs are BlurredRow's.
   ProjectedLight(const Pattern& pattern, Size projector, double defocus, double scattered);
+  // `pixels`: linear light along the axis, 0 to 1.
+  ProjectedLight(const std::vector<float>& pixels, Axis axis, double defocus, double scattered);
 
   using Value = BlurredRow::Value;
   [[nodiscard]] Value at(float coordinate) const { return row_.at(coordinate); }
@@ -18,8 +20,6 @@ class ProjectedLight {
   [[nodiscard]] Axis axis() const { return axis_; }
 
  private:
-  ProjectedLight(const std::vector<float>& pixels, Axis axis, double defocus, double scattered);
-
   BlurredRow row_;
   float mean_ = 0;
   Axis axis_;

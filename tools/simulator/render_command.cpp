@@ -1,6 +1,5 @@
 #include "tools/simulator/capture_folder.hpp"
 #include "tools/simulator/command_options.hpp"
-#include "tools/simulator/subjects.hpp"
 
 #include <string>
 #include <vector>
@@ -10,26 +9,7 @@
 namespace bodyscan::simulator {
 namespace {
 
-void add_subject_options(CLI::App& command, RenderOptions& options) {
-  command
-      .add_option("--subject", options.subject, "FILE.obj or builtin:NAME (" + builtin_subject_names() + ")")
-      ->required();
-  command
-      .add_option("--material", options.material, "own (as the subject has it), matt (albedo 0.82) or skin")
-      ->capture_default_str();
-  command.add_option("--scale-subject", options.subject_scale, "mm a unit of the subject")
-      ->capture_default_str();
-  command
-      .add_option_function<std::vector<double>>(
-          "--pose",
-          [&options](const std::vector<double>& pose) {
-            options.pose_rotation = {pose[0], pose[1], pose[2]};
-            options.pose_translation = {pose[3], pose[4], pose[5]};
-          },
-          "rotation vector in degrees about the subject's middle, then mm off 1.05 m before the "
-          "camera: RX,RY,RZ,X,Y,Z")
-      ->delimiter(',')
-      ->expected(6);
+void add_motion_option(CLI::App& command, RenderOptions& options) {
   command
       .add_option_function<std::vector<double>>(
           "--motion",
@@ -39,8 +19,6 @@ void add_subject_options(CLI::App& command, RenderOptions& options) {
           "mm the subject moves from frame to frame: X,Y,Z (the truth is the first frame's)")
       ->delimiter(',')
       ->expected(3);
-  command.add_option("--detail", options.detail, "longest triangle side of built-in body parts, mm")
-      ->capture_default_str();
 }
 
 void add_sequence_options(CLI::App& command, RenderOptions& options) {
@@ -64,6 +42,7 @@ void add_render_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<RenderOptions>();
   CLI::App& command = *app.add_subcommand("render", "Render a capture folder and the truth beside it");
   add_subject_options(command, *options);
+  add_motion_option(command, *options);
   command
       .add_option("--calibration", options->calibration, "FILE.yml or builtin:RIG (rows, columns, diagonal)")
       ->required();

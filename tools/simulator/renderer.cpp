@@ -2,7 +2,7 @@
 
 #include "pipeline/base/parallel.hpp"
 #include "tools/simulator/projected_chessboard.hpp"
-#include "tools/simulator/projected_light.hpp"
+#include "tools/simulator/projected_picture.hpp"
 #include "tools/simulator/sensor.hpp"
 #include "tools/simulator/skin.hpp"
 #include "tools/simulator/subjects.hpp"
@@ -148,10 +148,23 @@ double Renderer::scattered_blur() const {
 }
 
 ColorImage8 Renderer::frame(const Pattern& pattern, int index) const {
-  const ProjectedLight light(pattern, scene_->calibration.projector.size, options_.defocus, scattered_blur());
+  return frame(
+      ProjectedLight(pattern, scene_->calibration.projector.size, options_.defocus, scattered_blur()), index,
+      1);
+}
+
+ColorImage8 Renderer::frame(const ProjectedLight& light, int index, float gain) const {
   if (light.axis() == Axis::row)
-    return picture([&](const SubRay& ray) { return light.at(ray.row); }, light.mean(), index);
-  return picture([&](const SubRay& ray) { return light.at(ray.column); }, light.mean(), index);
+    return picture([&](const SubRay& ray) { return light.at(ray.row); }, light.mean(), index, gain);
+  return picture([&](const SubRay& ray) { return light.at(ray.column); }, light.mean(), index, gain);
+}
+
+ColorImage8 Renderer::frame(const FloatImage& shown, int index, float gain) const {
+  if (const std::optional<Axis> axis = changing_axis(shown))
+    return frame(ProjectedLight(pixels_along(shown, *axis), *axis, options_.defocus, scattered_blur()), index,
+                 gain);
+  const ProjectedPicture light(shown, options_.defocus, scattered_blur());
+  return picture([&](const SubRay& ray) { return light.at(ray.column, ray.row); }, light.mean(), index, gain);
 }
 
 ColorImage8 Renderer::frame(const ProjectedBoard& board, int index) const {
@@ -161,10 +174,10 @@ ColorImage8 Renderer::frame(const ProjectedBoard& board, int index) const {
 }
 
 template <class Shown>
-ColorImage8 Renderer::picture(const Shown& shown, float mean, int index) const {
+ColorImage8 Renderer::picture(const Shown& shown, float mean, int index, float gain) const {
   Samples moved;
   if (!options_.motion.isZero()) moved = trace(index * options_.motion);
-  Lit lit = light(options_.motion.isZero() ? still_ : moved, shown, mean);
+  Lit lit = light(options_.motion.isZero() ? still_ : moved, shown, mean, gain);
   if (options_.lens_blur > 0 && !lit.light.empty()) blur_light(lit.light, options_.lens_blur);
   return expose(lit, index);
 }
@@ -193,13 +206,13 @@ Renderer::Lit Renderer::lit_part(const Samples& samples) const {
 }
 
 template <class Shown>
-Renderer::Lit Renderer::light(const Samples& samples, const Shown& shown, float mean) const {
+Renderer::Lit Renderer::light(const Samples& samples, const Shown& shown, float mean, float gain) const {
   const auto black = static_cast<float>(1 / options_.contrast);
   const auto indirect =
       static_cast<float>(white_ * options_.reflection * static_cast<double>(black + (1 - black) * mean) +
                          options_.ambient / static_cast<double>(matt_albedo));
   const int rays = options_.rays * options_.rays;
-  const float ray_weight = 1 / (static_cast<float>(rays) * albedo_unit);
+  const float ray_weight = gain / (static_cast<float>(rays) * albedo_unit);
   Lit lit = lit_part(samples);
   parallel_for(0, lit.light.height(), rows_at_once, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {

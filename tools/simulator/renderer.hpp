@@ -5,6 +5,7 @@
 #include "pipeline/pattern/sequence.hpp"
 #include "tools/simulator/blurred_row.hpp"
 #include "tools/simulator/lens_blur.hpp"
+#include "tools/simulator/projected_light.hpp"
 #include "tools/simulator/scene.hpp"
 #include "tools/simulator/tracer.hpp"
 
@@ -46,6 +47,9 @@ class Renderer {
   // Frame `index` of a capture, showing `pattern` or `board`. May be called from several threads.
   [[nodiscard]] ColorImage8 frame(const Pattern& pattern, int index) const;
   [[nodiscard]] ColorImage8 frame(const ProjectedBoard& board, int index) const;
+  // Frame `index` while the projector shows any picture of its size (linear light, 0 to 1), all light times
+  // `gain` in the camera.
+  [[nodiscard]] ColorImage8 frame(const FloatImage& shown, int index, float gain = 1) const;
 
  private:
   struct SubRay {
@@ -71,11 +75,12 @@ class Renderer {
   [[nodiscard]] double evenness(const Illumination& light) const;
   [[nodiscard]] Samples trace(const Eigen::Vector3d& offset) const;
   [[nodiscard]] SubRay trace_ray(const Eigen::Vector2d& pixel, const Eigen::Vector3d& offset) const;
+  [[nodiscard]] ColorImage8 frame(const ProjectedLight& light, int index, float gain) const;
   // `shown` gives the projected light at a ray.
   template <class Shown>
-  [[nodiscard]] ColorImage8 picture(const Shown& shown, float mean, int index) const;
+  [[nodiscard]] ColorImage8 picture(const Shown& shown, float mean, int index, float gain = 1) const;
   template <class Shown>
-  [[nodiscard]] Lit light(const Samples& samples, const Shown& shown, float mean) const;
+  [[nodiscard]] Lit light(const Samples& samples, const Shown& shown, float mean, float gain) const;
   [[nodiscard]] Lit lit_part(const Samples& samples) const;
   [[nodiscard]] ColorImage8 expose(const Lit& lit, int index) const;
   [[nodiscard]] double scattered_blur() const;

@@ -46,12 +46,17 @@ Eigen::Matrix3d aim(const Vector3d& from, const Vector3d& to) {
 
 }  // namespace
 
+Expected<void> check_projector_size(Size size, const std::string& option) {
+  if (size.width < 16 || size.height < 16 || size.width > 8192 || size.height > 8192)
+    return usage_error(option + ": must lie in 16x16 to 8192x8192");
+  return {};
+}
+
 Expected<Calibration> make_rig(const RigOptions& options) {
   if (!(options.scale >= 1.0 / 64 && options.scale <= 2))
     return usage_error("--scale: must lie in 1/64 to 2");
-  if (options.projector.width < 16 || options.projector.height < 16 || options.projector.width > 8192 ||
-      options.projector.height > 8192)
-    return usage_error("--projector: must lie in 16x16 to 8192x8192");
+  if (const Expected<void> fits = check_projector_size(options.projector, "--projector"); !fits)
+    return tl::unexpected(fits.error());
   if (!std::isfinite(options.projector_roll)) return usage_error("--projector-roll: not finite");
 
   Vector3d position;

@@ -16,6 +16,9 @@ struct RigOptions {
   double projector_roll = 0;  // degrees, about the projector's own axis
 };
 
+// An error of kind `usage` that starts with `option` where no built-in rig can have such a projector.
+Expected<void> check_projector_size(Size size, const std::string& option);
+
 // "rows": 268 mm below the camera, so that depth moves a point along the projector's rows' numbers;
 // "columns": 272 mm beside it; "diagonal": 190 mm below and 190 mm beside. A roll nearer to 90 or 270 degrees
 // than to 0 or 180 swaps below and beside, so that the same axis of the projector still carries the depth.

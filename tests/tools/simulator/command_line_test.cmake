@@ -46,6 +46,28 @@ foreach(listed --calibration --output --columns --rows --square-mm --bend --plat
   expect(0 "[ ,{(]${listed}[ ,})]" calibration --help)
 endforeach()
 
+set(serve serve --subject builtin:staircase --calibration builtin:rows --projector never-listening)
+expect(2 "--projector is required" serve --subject builtin:staircase --calibration builtin:rows)
+expect(2 "--subject is required" serve --calibration builtin:rows --projector never-listening)
+expect(2 "--port: must lie in 0 to 65535" ${serve} --port 65536)
+expect(2 "--latency-ms: must lie" ${serve} --latency-ms -1)
+expect(2 "--rise-ms: must lie" ${serve} --rise-ms -1)
+expect(2 "--prepare" ${serve} --prepare diagonal)
+expect(2 "--fault: \"fire@2\": no such fault .there are: slow, dial, frozen@SHOT," ${serve} --fault fire@2)
+expect(2 "--fault: \"stale@1\": the shot must be a whole number from 2 on" ${serve} --fault slow --fault stale@1)
+expect(2 "--projector-size: must lie in 16x16" ${serve} --projector-size 8x8)
+expect(2 "--subject: no built-in \"cube\"" serve --subject builtin:cube --calibration builtin:rows
+       --projector never-listening)
+expect(3 "missing.yml" serve --subject builtin:staircase --calibration missing.yml --projector never-listening)
+expect(3 "--projector: no-folder/socket: No such file" serve --subject builtin:staircase --calibration builtin:rows
+       --scale 0.02 --projector no-folder/socket)
+foreach(listed --subject --material --scale-subject --pose --detail --calibration --projector --latency-ms --rise-ms --port
+        --prepare --fault --scale --projector-size --projector-roll --light --contrast --ambient --reflection --defocus
+        --uneven-light --subsurface --subsurface-blur --rays --lens-blur --full-well --read-noise --seed --jpeg-quality
+        frozen-for-good@SHOT move=MM@SHOT projector-mode@SHOT)
+  expect(0 "[ ,{(]${listed}[ ,;})\n]" serve --help)
+endforeach()
+
 # Options reach the renderer.
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
@@ -94,6 +116,6 @@ if(NOT pictures STREQUAL "pose_0_printed.png;pose_0_projected.png;pose_1_printed
 endif()
 file(REMOVE_RECURSE ${SCRATCH})
 
-if(EXISTS never-written)
+if(EXISTS never-written OR EXISTS never-listening)
   message(SEND_ERROR "a refused command wrote its output")
 endif()

@@ -300,6 +300,62 @@ TEST(Renderer, PicturesDependOnTheSeedNotOnTheThreads) {
   EXPECT_FALSE(same(Renderer::make(scene, options).value().frame(white, 3)));
 }
 
+FloatImage linear_picture(const GrayImage8& picture) {
+  FloatImage light(picture.size());
+  for (std::size_t i = 0; i < light.pixels().size(); ++i)
+    light.pixels()[i] = static_cast<float>(srgb_to_linear(picture.pixels()[i] / 255.0));
+  return light;
+}
+
+TEST(Renderer, APictureThatEqualsAPatternGivesTheSamePixels) {
+  const Scene scene = shaded_plate();
+  RenderOptions options = quiet_options();
+  options.full_well = 22000;
+  options.subsurface = 0.3;
+  const Renderer renderer = Renderer::make(scene, options).value();
+  int index = 0;
+  for (const Pattern& pattern : {white, black, Pattern{PatternKind::gray, Axis::row, 3, true},
+                                 Pattern{PatternKind::gray, Axis::column, 5, false}}) {
+    const GrayImage8 picture = render_pattern(pattern, scene.calibration.projector.size);
+    const ColorImage8 wanted = renderer.frame(pattern, index);
+    const ColorImage8 rendered = renderer.frame(linear_picture(picture), index);
+    EXPECT_TRUE(std::ranges::equal(wanted.pixels(), rendered.pixels())) << describe(pattern);
+    ++index;
+  }
+}
+
+TEST(Renderer, APictureThatChangesAlongBothAxesLightsWhatItShows) {
+  const Scene scene = shaded_plate();
+  const Renderer renderer = Renderer::make(scene, quiet_options()).value();
+  const TruthMaps truth = renderer.truth();
+  FloatImage shown(scene.calibration.projector.size, 0);
+  for (int y = 0; y < 300; ++y) std::fill_n(shown.row(y), 600, 1.0F);
+  const ColorImage8 image = renderer.frame(shown, 0);
+  int lit = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      if (truth.reachable(x, y) == 0) continue;
+      const float row = truth.rows(x, y);
+      const float column = truth.columns(x, y);
+      if (std::abs(row - 299.5F) < 6 || std::abs(column - 599.5F) < 6) continue;
+      const bool wanted = row < 299.5F && column < 599.5F;
+      ASSERT_EQ(green(image, x, y) > 0.3, wanted) << x << ' ' << y;
+      lit += wanted ? 1 : 0;
+    }
+  }
+  EXPECT_GT(lit, 3000);
+}
+
+TEST(Renderer, GainMultipliesTheLight) {
+  const Scene scene = shaded_plate();
+  const Renderer renderer = Renderer::make(scene, quiet_options()).value();
+  const auto [x, y] = pixel_of(scene, Vector3d(150, 0, 1050));
+  const FloatImage full(scene.calibration.projector.size, 1);
+  const double once = green(renderer.frame(full, 0), x, y);
+  EXPECT_NEAR(green(renderer.frame(full, 0, 0.25F), x, y), once / 4, 0.004);
+  EXPECT_EQ(green(renderer.frame(full, 0, 4), x, y), 1);
+}
+
 TEST(Renderer, MotionShiftsLaterFrames) {
   Scene scene;
   RenderOptions options = quiet_options();
