@@ -38,6 +38,7 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
       "Exit status: 0 done, 2 wrong command line, 3 a file is missing, damaged, inconsistent or cannot be\n"
       "written, 4 a device failed, 5 the store failed, 6 the result does not reach the quality asked for.");
   Action action;
+  add_scan_command(app, action);
   add_calibrate_command(app, action);
   add_reconstruct_command(app, action);
   add_board_command(app, action);
