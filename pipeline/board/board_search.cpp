@@ -42,8 +42,8 @@ std::string describe(const std::vector<ChessboardCorners>& boards, int columns, 
 
 }  // namespace
 
-int search_factor(Size size) {
-  return std::max(1, (std::max(size.width, size.height) + search_px - 1) / search_px);
+int search_factor(Size whole) {
+  return std::max(1, (std::max(whole.width, whole.height) + search_px - 1) / search_px);
 }
 
 ChessboardCorners enlarged(ChessboardCorners board, int factor) {
