@@ -2,7 +2,7 @@
 
 #include "pipeline/image/codec.hpp"
 
-#include <ranges>
+#include <algorithm>
 #include <system_error>
 
 namespace bodyscan {
@@ -63,12 +63,12 @@ Expected<void> OptionalOutput::commit() {
 Expected<OutputFolder> OutputFolder::create(const std::filesystem::path& path) {
   std::error_code code;
   std::vector<std::filesystem::path> missing;
-  for (std::filesystem::path at = resolved(path); !std::filesystem::exists(at, code);
-       at = at.parent_path())
+  for (std::filesystem::path at = resolved(path); !std::filesystem::exists(at, code); at = at.parent_path())
     if (at.has_filename()) missing.push_back(at);
   code.clear();
   OutputFolder folder;
-  for (const std::filesystem::path& at : missing | std::views::reverse)
+  std::ranges::reverse(missing);
+  for (const std::filesystem::path& at : missing)
     if (!code && std::filesystem::create_directory(at, code)) folder.made_.push_back(at);
   if (code) return output_error(path.string() + ": " + code.message());
   if (!std::filesystem::is_directory(path, code)) return output_error(path.string() + ": is no folder");
@@ -77,7 +77,7 @@ Expected<OutputFolder> OutputFolder::create(const std::filesystem::path& path) {
 
 OutputFolder::~OutputFolder() {
   std::error_code not_empty;
-  for (const std::filesystem::path& at : made_ | std::views::reverse) std::filesystem::remove(at, not_empty);
+  for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), not_empty);
 }
 
 }  // namespace bodyscan
