@@ -16,13 +16,15 @@
 namespace bodyscan {
 namespace {
 
+constexpr double max_paper_mm = 5000;  // a PDF page has at most 14400 points (5080 mm)
+
 struct BoardOptions {
   PrintedBoard board;
   std::filesystem::path output;  // PDF or SVG, written
   std::string paper = "a4";
 };
 
-// ISO 216's, or "WIDTHxHEIGHT" in mm; up to what a PDF page can have (14400 points).
+// ISO 216's, or "WIDTHxHEIGHT" in mm.
 std::optional<Eigen::Vector2d> paper_mm(const std::string& name) {
   if (name == "a4") return Eigen::Vector2d(210, 297);
   if (name == "a3") return Eigen::Vector2d(297, 420);
@@ -32,8 +34,8 @@ std::optional<Eigen::Vector2d> paper_mm(const std::string& name) {
   const auto width = std::from_chars(name.data(), end, size.x());
   if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') return std::nullopt;
   const auto height = std::from_chars(width.ptr + 1, end, size.y());
-  const bool valid =
-      height.ec == std::errc() && height.ptr == end && size.minCoeff() > 0 && size.maxCoeff() <= 5000;
+  const bool valid = height.ec == std::errc() && height.ptr == end && size.allFinite() &&
+                     size.minCoeff() > 0 && size.maxCoeff() <= max_paper_mm;
   return valid ? std::optional(size) : std::nullopt;
 }
 

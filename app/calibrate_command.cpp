@@ -26,8 +26,9 @@ std::string summary(const CalibrationReport& report, const std::filesystem::path
   if (report.leave_one_out_camera_px && report.leave_one_out_projector_px)
     text += "a pose that is left out: " + px(*report.leave_one_out_camera_px) + " in the camera, " +
             px(*report.leave_one_out_projector_px) + " in the projector\n";
-  text += "the board's squares come out " + percent(report.square_error_percent) +
-          " off their printed side, spread " + fixed_text(report.square_spread_percent, 3) + " %\n";
+  if (report.square_error_percent && report.square_spread_percent)
+    text += "the board's squares come out " + percent(*report.square_error_percent) +
+            " off their printed side, spread " + fixed_text(*report.square_spread_percent, 3) + " %\n";
   for (const PoseReport& pose : report.poses) {
     if (!pose.used) text += pose.name + " left out: " + pose.reason + "\n";
     for (const std::string& note : pose.notes) text += pose.name + ": " + note + "\n";

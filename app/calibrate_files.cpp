@@ -7,7 +7,8 @@
 #include <array>
 #include <chrono>
 #include <ctime>
-#include <system_error>
+#include <span>
+#include <string_view>
 
 namespace bodyscan {
 namespace {
@@ -21,9 +22,12 @@ std::string utc_now() {
   return text.data();
 }
 
+// The calibration first.
 std::vector<std::filesystem::path> outputs_of(const CalibrateOptions& options) {
   std::vector<std::filesystem::path> outputs{options.output};
   if (options.report) outputs.push_back(*options.report);
+  if (options.plots)
+    for (const std::string_view name : plot_file_names) outputs.push_back(*options.plots / name);
   return outputs;
 }
 
@@ -40,14 +44,6 @@ Expected<std::optional<KeptCalibration>> kept_calibration(const CalibrateOptions
   return KeptCalibration{*known, notes->camera_rms_px.value_or(0), notes->projector_rms_px.value_or(0)};
 }
 
-// A folder that can be written into once it is there.
-Expected<void> check_folder(const std::filesystem::path& folder) {
-  std::error_code code;
-  if (std::filesystem::exists(folder, code) && !std::filesystem::is_directory(folder, code))
-    return output_error(folder.string() + ": is no folder");
-  return {};
-}
-
 }  // namespace
 
 Expected<CalibrateInputs> open_inputs(const CalibrateOptions& options) {
@@ -59,9 +55,9 @@ Expected<CalibrateInputs> open_inputs(const CalibrateOptions& options) {
   if (!session) return tl::unexpected(session.error());
   if (Expected<void> distinct = check_distinct(outputs, session->files()); !distinct)
     return tl::unexpected(distinct.error());
-  if (options.report && options.keep_intrinsics)
+  if (options.keep_intrinsics)
     if (Expected<void> distinct =
-            check_distinct(std::array{*options.report}, std::array{*options.keep_intrinsics});
+            check_distinct(std::span(outputs).subspan(1), std::array{*options.keep_intrinsics});
         !distinct)
       return tl::unexpected(distinct.error());
   const auto kept = kept_calibration(options, *session);
@@ -70,29 +66,35 @@ Expected<CalibrateInputs> open_inputs(const CalibrateOptions& options) {
 }
 
 Expected<CalibrateOutputs> CalibrateOutputs::open(const CalibrateOptions& options) {
-  if (options.plots)
-    if (Expected<void> folder = check_folder(*options.plots); !folder) return tl::unexpected(folder.error());
   Expected<AtomicFile> calibration = AtomicFile::create(options.output);
   if (!calibration) return tl::unexpected(calibration.error());
   Expected<OptionalOutput> report = OptionalOutput::create(options.report);
   if (!report) return tl::unexpected(report.error());
   CalibrateOutputs outputs(std::move(*calibration));
   outputs.report_ = std::move(*report);
-  outputs.plots_folder_ = options.plots;
+  if (options.plots)
+    if (Expected<void> opened = outputs.open_plots(*options.plots); !opened)
+      return tl::unexpected(opened.error());
   return outputs;
 }
 
-Expected<void> CalibrateOutputs::draw_plots(const CalibrationResult& result, const PrintedBoard& board) {
-  if (!plots_folder_) return {};
-  std::error_code code;
-  std::filesystem::create_directories(*plots_folder_, code);
-  if (code) return output_error(plots_folder_->string() + ": " + code.message());
-  for (const Plot& plot : calibration_plots(result.report, result.calibration, board)) {
-    Expected<AtomicFile> file = AtomicFile::create(*plots_folder_ / plot.file_name);
+Expected<void> CalibrateOutputs::open_plots(const std::filesystem::path& folder) {
+  Expected<OutputFolder> made = OutputFolder::create(folder);
+  if (!made) return tl::unexpected(made.error());
+  plots_folder_.emplace(std::move(*made));
+  for (const std::string_view name : plot_file_names) {
+    Expected<AtomicFile> file = AtomicFile::create(folder / name);
     if (!file) return tl::unexpected(file.error());
-    if (Expected<void> written = file->write(plot.svg); !written) return written;
     plots_.push_back(std::move(*file));
   }
+  return {};
+}
+
+Expected<void> CalibrateOutputs::draw_plots(const CalibrationResult& result, const PrintedBoard& board) {
+  if (plots_.empty()) return {};
+  const std::vector<Plot> plots = calibration_plots(result.report, result.calibration, board);
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    if (Expected<void> written = plots_[i].write(plots[i].svg); !written) return written;
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/image/codec.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 namespace bodyscan {
@@ -57,6 +58,26 @@ Expected<void> OptionalOutput::write_png(const ColorImage8& image) {
 Expected<void> OptionalOutput::commit() {
   if (!file_) return {};
   return file_->commit(Durability::process);
+}
+
+Expected<OutputFolder> OutputFolder::create(const std::filesystem::path& path) {
+  std::error_code code;
+  std::vector<std::filesystem::path> missing;
+  for (std::filesystem::path at = resolved(path); !std::filesystem::exists(at, code); at = at.parent_path())
+    if (at.has_filename()) missing.push_back(at);
+  code.clear();
+  OutputFolder folder;
+  std::ranges::reverse(missing);
+  for (const std::filesystem::path& at : missing)
+    if (!code && std::filesystem::create_directory(at, code)) folder.made_.push_back(at);
+  if (code) return output_error(path.string() + ": " + code.message());
+  if (!std::filesystem::is_directory(path, code)) return output_error(path.string() + ": is no folder");
+  return folder;
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code not_empty;
+  for (; !made_.empty(); made_.pop_back()) std::filesystem::remove(made_.back(), not_empty);
 }
 
 }  // namespace bodyscan

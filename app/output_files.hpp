@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace bodyscan {
 
@@ -31,6 +32,20 @@ class OptionalOutput {
 
  private:
   std::optional<AtomicFile> file_;
+};
+
+// A folder for outputs, made with its parents where it is not there; what was made goes with the object while
+// nothing lies in it. Error: it cannot be made, or is a file.
+class OutputFolder {
+ public:
+  static Expected<OutputFolder> create(const std::filesystem::path& path);
+  OutputFolder(OutputFolder&& other) noexcept = default;
+  OutputFolder& operator=(OutputFolder&& other) noexcept = delete;
+  ~OutputFolder();
+
+ private:
+  OutputFolder() = default;
+  std::vector<std::filesystem::path> made_;  // the outermost first; none after a move
 };
 
 }  // namespace bodyscan

@@ -3,6 +3,7 @@
 #include "app/interrupt.hpp"
 #include "hal/replay/frame_reader.hpp"
 #include "pipeline/base/number_text.hpp"
+#include "pipeline/board/board_shift.hpp"
 #include "pipeline/board/corner_refinement.hpp"
 #include "pipeline/board/find_board.hpp"
 #include "pipeline/board/gray_code_corners.hpp"
@@ -48,7 +49,7 @@ Expected<CalibrationPose> look_at_pair(const CalibrationSession& session, int in
   }
   for (const SeenCorner& seen : seen_corners(light->corners))
     pose.observation.projected.push_back({shown.corner_px(seen.corner), seen.px});
-  const std::optional<double> shift = board_shift_px(*projected, *board);
+  const std::optional<double> shift = board_shift_px(*projected, board->corners);
   if (shift.value_or(0) > std::max(max_shift_px, max_shift_squares * square_px(board->corners)))
     pose.failure = moved_text(*shift);
   return pose;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace bodyscan {
@@ -60,21 +61,23 @@ class PointIndex {
 class Grower {
  public:
   explicit Grower(std::span<const SaddlePoint> points)
-      : points_(points), index_(points), taken_(points.size(), false) {}
+      : points_(points), index_(points), taken_(points.size(), false), on_board_(points.size(), false) {}
 
   // The board around a seed; empty where it does not even have four neighbours in a square.
   std::map<Place, std::size_t> grow(std::size_t seed) {
+    for (const auto& [place, point] : board_) on_board_[point] = false;
     board_.clear();
+    to_try_.clear();
     const SaddlePoint& first = points_[seed];
     const auto right = first_neighbour(seed, first.edges[0]);
     const auto down = first_neighbour(seed, first.edges[1]);
     if (!right || !down) return {};
-    board_[{0, 0}] = seed;
-    board_[{1, 0}] = *right;
+    put({0, 0}, seed);
+    put({1, 0}, *right);
     const Vector2d along = points_[*right].at - first.at;
     const Vector2d across = points_[*down].at - first.at;
     const bool right_handed = along.x() * across.y() > along.y() * across.x();
-    board_[{0, right_handed ? 1 : -1}] = *down;
+    put({0, right_handed ? 1 : -1}, *down);
     while (add_ring()) {
     }
     return board_;
@@ -171,29 +174,43 @@ class Grower {
     return Expected{sum / weight, step, from};
   }
 
-  // All free places beside the board, once; whether any corner was added.
-  bool add_ring() {
-    std::map<Place, std::size_t> added;
-    std::map<std::size_t, int> uses;
-    for (const auto& [place, point] : board_) {
-      for (const auto& [dx, dy] : {Place{1, 0}, Place{-1, 0}, Place{0, 1}, Place{0, -1}}) {
-        const Place free{place.first + dx, place.second + dy};
-        if (board_.contains(free) || added.contains(free)) continue;
-        const auto where = expected(free);
-        if (!where) continue;
-        if (const auto found = corner_near(*where)) {
-          added[free] = *found;
-          ++uses[*found];
-        }
+  void put(const Place& place, std::size_t point) {
+    board_[place] = point;
+    on_board_[point] = true;
+    // The places whose `expected` depends on this one.
+    const auto [column, row] = place;
+    for (const int side : {-1, 1}) {
+      for (const int steps : {1, 2, 3}) {
+        to_try_.emplace(column + side * steps, row);
+        to_try_.emplace(column, row + side * steps);
       }
+      to_try_.emplace(column + side, row - 1);
+      to_try_.emplace(column + side, row + 1);
     }
-    std::erase_if(added, [&](const auto& entry) { return uses[entry.second] > 1 || used(entry.second); });
-    board_.insert(added.begin(), added.end());
-    return !added.empty();
   }
 
-  [[nodiscard]] bool used(std::size_t point) const {
-    return std::ranges::any_of(board_, [&](const auto& entry) { return entry.second == point; });
+  // Every free place where a corner may be expected now and was not before; whether any was added.
+  bool add_ring() {
+    std::map<Place, std::size_t> found;
+    std::map<std::size_t, int> uses;
+    for (const Place& place : std::exchange(to_try_, {})) {
+      if (board_.contains(place)) continue;
+      const auto where = expected(place);
+      const auto corner = where ? corner_near(*where) : std::nullopt;
+      if (!corner || on_board_[*corner]) continue;
+      found[place] = *corner;
+      ++uses[*corner];
+    }
+    bool added = false;
+    for (const auto& [place, corner] : found) {
+      if (uses[corner] > 1) {
+        to_try_.insert(place);
+        continue;
+      }
+      put(place, corner);
+      added = true;
+    }
+    return added;
   }
 
   [[nodiscard]] std::optional<std::size_t> corner_near(const Expected& where) const {
@@ -211,6 +228,8 @@ class Grower {
   PointIndex index_;
   std::vector<bool> taken_;
   std::map<Place, std::size_t> board_;
+  std::vector<bool> on_board_;  // by point
+  std::set<Place> to_try_;
 };
 
 struct Extent {

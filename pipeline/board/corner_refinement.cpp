@@ -1,6 +1,7 @@
 #include "pipeline/board/corner_refinement.hpp"
 
 #include "pipeline/base/median.hpp"
+#include "pipeline/board/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +22,6 @@ constexpr double max_walk = 0.7;        // of the half window
 constexpr double min_roundness = 0.05;  // of the gradients: 4 det / trace^2, 1 where all directions are alike
 constexpr double window_share = 1.0 / 6;  // of a square, half a window
 constexpr double min_half_window = 3;
-
-double sample(const FloatImage& image, double x, double y) {
-  const int left = static_cast<int>(std::floor(x));
-  const int top = static_cast<int>(std::floor(y));
-  const double u = x - left;
-  const double v = y - top;
-  const float* row = image.row(top) + left;
-  const float* below = image.row(top + 1) + left;
-  return (static_cast<double>(row[0]) * (1 - u) + static_cast<double>(row[1]) * u) * (1 - v) +
-         (static_cast<double>(below[0]) * (1 - u) + static_cast<double>(below[1]) * u) * v;
-}
 
 bool inside(const FloatImage& image, const Vector2d& at, double margin) {
   return at.x() >= margin && at.y() >= margin && at.x() < image.width() - 1 - margin &&
@@ -102,10 +92,7 @@ std::optional<double> blur_between(const FloatImage& image, const Vector2d& a, c
   const Vector2d across = Vector2d(-along.y(), along.x()).normalized();
   const Vector2d middle = (a + b) / 2;
   if (!inside(image, middle, reach + 2)) return std::nullopt;
-  const auto at = [&](double t) {
-    const Vector2d place = middle + t * across;
-    return sample(image, place.x(), place.y());
-  };
+  const auto at = [&](double t) { return sample(image, middle + t * across); };
   double steepest = 0;
   for (double t = -reach; t <= reach; t += 0.5)
     steepest = std::max(steepest, std::abs(at(t + 1) - at(t - 1)) / 2);

@@ -5,8 +5,6 @@
 #include "pipeline/board/chessboard.hpp"
 #include "pipeline/image/frame.hpp"
 
-#include <optional>
-
 namespace bodyscan {
 
 // A board in a picture, upright (turned_upright), some corners perhaps missing.
@@ -24,9 +22,5 @@ Expected<FoundBoard> find_printed_board(const Luma& picture, const PrintedBoard&
 // without the printed corners.
 Expected<FoundBoard> find_projected_board(const Luma& printed, const Luma& projected,
                                           const FoundBoard& printed_board, const ProjectedBoard& board);
-
-// How far the printed board's corners, where they can still be seen, lie from where they were, up to half a
-// square: median, px; nothing where too few can be seen to tell.
-std::optional<double> board_shift_px(const Luma& later, const FoundBoard& before);
 
 }  // namespace bodyscan

@@ -1,6 +1,7 @@
 #include "pipeline/board/saddle_points.hpp"
 
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/board/sampling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,17 +32,6 @@ Hessian hessian_at(const FloatImage& image, int x, int y) {
           image(x, y - 1) - 2 * image(x, y) + image(x, y + 1)};
 }
 
-float sample(const FloatImage& image, const Eigen::Vector2d& at) {
-  const double x = std::clamp(at.x(), 0.0, image.width() - 1.001);
-  const double y = std::clamp(at.y(), 0.0, image.height() - 1.001);
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const float u = static_cast<float>(x - left);
-  const float v = static_cast<float>(y - top);
-  return (image(left, top) * (1 - u) + image(left + 1, top) * u) * (1 - v) +
-         (image(left, top + 1) * (1 - u) + image(left + 1, top + 1) * u) * v;
-}
-
 // The extremum of the saddle surface about a pixel: where the gradient of a quadratic vanishes.
 Eigen::Vector2d refine(const FloatImage& image, int x, int y, const Hessian& h) {
   const double gx = static_cast<double>(image(x + 1, y) - image(x - 1, y)) / 2;
@@ -64,8 +54,7 @@ Ring look_around(const FloatImage& image, const Eigen::Vector2d& at, double radi
   double mean = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(i) / ring_samples;
-    values[i] =
-        static_cast<double>(sample(image, at + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle))));
+    values[i] = sample(image, at + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     mean += values[i] / ring_samples;
   }
   Ring ring;

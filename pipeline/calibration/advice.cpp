@@ -1,11 +1,11 @@
 #include "pipeline/calibration/advice.hpp"
 
+#include "pipeline/base/number_text.hpp"
 #include "pipeline/calibration/rig_uncertainty.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -32,12 +32,6 @@ constexpr double little_coverage = 0.5;  // of the picture's width or height
 constexpr double poor_focal = 0.003;     // relative
 constexpr double worth_while = 0.7;      // of the uncertainty left by one more pose
 constexpr double tilt = 30;              // degrees, of suggested poses
-
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 // Of two boards' normals, degrees.
 double angle_between(const RigidTransform& one, const RigidTransform& other) {
@@ -123,7 +117,7 @@ std::vector<Suggestion> suggestions(const AdjustmentProblem& problem, const Adju
         pose.rotation = rotation_of(degree * Vector3d(leaning.value.x(), leaning.value.y(), 0));
         pose.translation = camera.ray(px) * distance - pose.rotation * problem.board.middle_mm();
         result.push_back({std::string("the board ") + place.words + ", " + leaning.words + ", " +
-                              text("%.2f m away", distance / 1000),
+                              fixed_text(distance / 1000, 2) + " m away",
                           pose});
       }
     }
@@ -169,7 +163,8 @@ std::string with_sigma(const FixedParameter& fixed) {
   const bool pixels = std::ranges::any_of(std::array{LensParameter::cx, LensParameter::cy}, [&](auto which) {
     return fixed.parameter % lens_parameters == static_cast<int>(which);
   });
-  return parameter_name(fixed.parameter) + text(pixels ? " (+- %.2g px)" : " (+- %.1g)", fixed.sigma);
+  return parameter_name(fixed.parameter) + " (+- " +
+         (pixels ? significant_text(fixed.sigma, 2) + " px)" : significant_text(fixed.sigma, 1) + ")");
 }
 
 }  // namespace
@@ -178,17 +173,17 @@ std::vector<std::string> advise_on_poses(const AdjustmentProblem& problem, const
   std::vector<std::string> lines;
   const Spread spread = spread_of(problem, fit);
   if (spread.angle < few_tilts_degrees)
-    lines.push_back(
-        "the boards are nearly parallel, within " + text("%.1f degrees", spread.angle) +
-        ": focal lengths, principal points and distances cannot be told apart well; tilt the board by 20 to "
-        "40 degrees both ways");
+    lines.push_back("the boards are nearly parallel, within " + fixed_text(spread.angle, 1) +
+                    " degrees: focal lengths, principal points and distances cannot be told apart well; tilt "
+                    "the board by 20 to 40 degrees both ways");
   if (spread.farthest < (1 + one_distance) * spread.nearest)
     lines.emplace_back("all boards are about equally far away: hold some nearer, some farther");
   const Vector2d coverage = coverage_of(problem, fit.rig.calibration.camera.size);
   if (coverage.minCoeff() < little_coverage)
-    lines.push_back("the corners cover " + text("%.0f %% of the picture's width and ", 100 * coverage.x()) +
-                    text("%.0f %% of its height", 100 * coverage.y()) +
-                    ": beyond, the lens distortion is a guess; hold the board towards the borders too");
+    lines.push_back(
+        "the corners cover " + fixed_text(100 * coverage.x(), 0) + " % of the picture's width and " +
+        fixed_text(100 * coverage.y(), 0) +
+        " % of its height: beyond, the lens distortion is a guess; hold the board towards the borders too");
   return lines;
 }
 
@@ -219,8 +214,8 @@ std::vector<std::string> advise(const AdjustmentProblem& problem, const Supporte
   }
   if (!words.empty() && (before > poor_focal || best < worth_while * before))
     lines.push_back("one more pose would help most with " + words +
-                    ": focal lengths and baseline, known to " + text("%.2g %%", 100 * before) +
-                    " together, would be known to " + text("%.2g %%", 100 * best));
+                    ": focal lengths and baseline, known to " + significant_text(100 * before, 2) +
+                    " % together, would be known to " + significant_text(100 * best, 2) + " %");
   return lines;
 }
 
@@ -248,8 +243,8 @@ std::vector<std::string> name_repeated(const AdjustmentProblem& problem,
       if (angle > nearly_parallel_degrees ||
           distance_between(problem.board, camera_from_board[i], camera_from_board[k]) > same_place)
         continue;
-      notes[i] = "nearly parallel to " + problem.poses[k].name + text(" (%.1f degrees)", angle) +
-                 " and at the same place: adds nothing new";
+      notes[i] = "nearly parallel to " + problem.poses[k].name + " (" + fixed_text(angle, 1) +
+                 " degrees) and at the same place: adds nothing new";
     }
   }
   return notes;

@@ -58,9 +58,9 @@ struct CalibrationReport {
 
   // The board's squares, triangulated from camera and projector: mean side over the printed one, less one,
   // and the sides' standard deviation, in percent. The same leaving each pose out of the calibration that
-  // measures it.
-  double square_error_percent = 0;
-  double square_spread_percent = 0;
+  // measures it. Nothing where no square could be triangulated.
+  std::optional<double> square_error_percent;
+  std::optional<double> square_spread_percent;
   std::optional<double> leave_one_out_square_error_percent;
 
   // Of focal lengths and baseline together, and what that is worth; nothing where the lenses were kept.

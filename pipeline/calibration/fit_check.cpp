@@ -92,14 +92,15 @@ Expected<void> check_focal_lengths(const AdjustmentProblem& problem, const Adjus
 
 Expected<void> check_fit(const AdjustmentProblem& problem, const CalibrationReport& report) {
   if (report.camera_rms_px <= max_camera_px && report.projector_rms_px <= max_projector_px &&
-      std::abs(report.square_error_percent) <= max_square_error_percent &&
-      report.square_spread_percent <= max_square_spread_percent)
+      std::abs(report.square_error_percent.value_or(0)) <= max_square_error_percent &&
+      report.square_spread_percent.value_or(0) <= max_square_spread_percent)
     return {};
   std::string message = "no camera and projector fit these poses: " + fixed_text(report.camera_rms_px, 2) +
                         " px off in the camera, " + fixed_text(report.projector_rms_px, 2) +
-                        " px in the projector, the board's squares come out " +
-                        fixed_text(report.square_error_percent, 2) + " % off their printed side, spread " +
-                        fixed_text(report.square_spread_percent, 2) + " %";
+                        " px in the projector";
+  if (report.square_error_percent && report.square_spread_percent)
+    message += ", the board's squares come out " + fixed_text(*report.square_error_percent, 2) +
+               " % off their printed side, spread " + fixed_text(*report.square_spread_percent, 2) + " %";
   const double pairs = misfit_of_kind(problem, report, true);
   const double captures = misfit_of_kind(problem, report, false);
   if (pairs > kept_ratio * std::max(captures, least_misfit_px) && captures > 0)

@@ -154,7 +154,7 @@ ProjectorData projector_data(const PrintedBoard& board, const std::vector<PoseOb
   return data;
 }
 
-void free(ParameterMask& mask, std::initializer_list<int> parameters) {
+void set_free(ParameterMask& mask, std::initializer_list<int> parameters) {
   for (const int parameter : parameters) mask.set(static_cast<std::size_t>(parameter));
 }
 
@@ -198,7 +198,7 @@ Expected<RigEstimate> guess_rig(const PrintedBoard& board, const std::vector<Pos
   }
   rig.calibration.projector = plain_lens(projector, projector.width, (projector.height - 1) / 2.0);
   AdjustmentProblem problem{board, camera_only, used, {}};
-  free(problem.free, {camera_parameter(LensParameter::focal), camera_parameter(LensParameter::k1)});
+  set_free(problem.free, {camera_parameter(LensParameter::focal), camera_parameter(LensParameter::k1)});
   rig = adjust(problem, rig).rig;
 
   const ProjectorData data = projector_data(board, poses, used, rig);
@@ -215,9 +215,9 @@ Expected<RigEstimate> guess_rig(const PrintedBoard& board, const std::vector<Pos
   rig.calibration.projector = best.lens;
   rig.calibration.projector_from_camera = best.projector_from_camera;
   AdjustmentProblem inverse_camera{board, poses, used, {}, true};
-  free(inverse_camera.free,
-       {projector_parameter(LensParameter::focal), projector_parameter(LensParameter::cy)});
-  for (int i = 0; i < 6; ++i) free(inverse_camera.free, {extrinsic_parameter(i)});
+  set_free(inverse_camera.free,
+           {projector_parameter(LensParameter::focal), projector_parameter(LensParameter::cy)});
+  for (int i = 0; i < 6; ++i) set_free(inverse_camera.free, {extrinsic_parameter(i)});
   return adjust(inverse_camera, rig).rig;
 }
 

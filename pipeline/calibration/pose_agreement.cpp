@@ -78,8 +78,9 @@ std::string reason_of(const AdjustmentProblem& problem, const Adjustment& withou
                       const PoseMisfit& typical, std::size_t pose) {
   const SideFigures sides =
       figures_of(triangulate_board(without.rig.calibration, problem.board, problem.poses[pose]).sides);
-  if (std::abs(sides.error_percent) > other_board_percent && sides.spread_percent < other_board_percent)
-    return "its squares measure " + fixed_text(problem.board.square_mm * (1 + sides.error_percent / 100), 2) +
+  const double error_percent = sides.error_percent.value_or(0);
+  if (std::abs(error_percent) > other_board_percent && sides.spread_percent < other_board_percent)
+    return "its squares measure " + fixed_text(problem.board.square_mm * (1 + error_percent / 100), 2) +
            " mm, not " + fixed_text(problem.board.square_mm, 2) +
            ": another board, or the board moved between the pictures";
   const double alone_px = camera_misfit_alone(problem, without, pose);

@@ -90,7 +90,7 @@ SideFigures figures_of(const std::vector<double>& sides) {
   for (const double side : sides) mean += side / count;
   double squares = 0;
   for (const double side : sides) squares += (side - mean) * (side - mean) / count;
-  return {100 * (mean - 1), 100 * std::sqrt(squares)};
+  return {.error_percent = 100 * (mean - 1), .spread_percent = 100 * std::sqrt(squares)};
 }
 
 }  // namespace bodyscan

@@ -2,6 +2,7 @@
 
 #include "pipeline/calibration/bundle_adjustment.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace bodyscan {
@@ -17,10 +18,10 @@ struct TriangulatedBoard {
 TriangulatedBoard triangulate_board(const Calibration& calibration, const PrintedBoard& board,
                                     const PoseObservation& pose);
 
-// Mean less one and standard deviation of sides, in percent; zeros for none.
+// Mean less one and standard deviation of sides, in percent; nothing of none.
 struct SideFigures {
-  double error_percent = 0;
-  double spread_percent = 0;
+  std::optional<double> error_percent;
+  std::optional<double> spread_percent;
 };
 SideFigures figures_of(const std::vector<double>& sides);
 

@@ -1,4 +1,3 @@
-#include "pipeline/base/size_text.hpp"
 #include "pipeline/drawing/plot_style.hpp"
 #include "pipeline/drawing/plots.hpp"
 
@@ -42,32 +41,20 @@ Count draw_corners(SvgPicture& sheet, const PictureFrame& frame, const std::vect
 
 void draw_picture(SvgPicture& sheet, const PictureFrame& frame, const std::vector<PoseReport>& poses,
                   std::vector<CornerResidual> PoseReport::*device, const std::string& name) {
-  frame.draw(sheet);
   const Count count = draw_corners(sheet, frame, poses, device);
-  sheet.text(frame.corner + Vector2d(0, frame.size().y() + 20), label_size,
-             name + ", " + text_of(frame.picture) + " pixels: " + std::to_string(count.used) + " corners, " +
-                 std::to_string(count.left_out) + " left out",
-             styled("fill", plot_ink));
+  draw_caption(sheet, frame, name,
+               std::to_string(count.used) + " corners, " + std::to_string(count.left_out) + " left out");
 }
 
 }  // namespace
 
 std::string coverage_plot(const CalibrationReport& report, const Calibration& calibration) {
-  const Size camera = calibration.camera.size;
-  const Size projector = calibration.projector.size;
-  const PictureFrame first{{plot_margin, plot_head}, picture_height / camera.height, camera};
-  const PictureFrame second{{first.corner.x() + first.size().x() + plot_margin, plot_head},
-                            picture_height / projector.height,
-                            projector};
-  const PoseLegend legend(report.poses, picture_height);
-  const double legend_x = second.corner.x() + second.size().x() + plot_margin;
-  SvgPicture sheet = plot_sheet(
-      legend_x + legend.width() + plot_margin, plot_head + picture_height + caption_height,
-      "Coverage by corners",
+  const PicturePair pictures(calibration, picture_height);
+  SvgPicture sheet = pictures.sheet(
+      report.poses, caption_height, "Coverage by corners",
       "Lenses are known where corners lie. A dot for every corner used, a cross for every one left out");
-  draw_picture(sheet, first, report.poses, &PoseReport::camera, "Camera");
-  draw_picture(sheet, second, report.poses, &PoseReport::projector, "Projector");
-  legend.draw(sheet, {legend_x, plot_head});
+  draw_picture(sheet, pictures.camera, report.poses, &PoseReport::camera, "Camera");
+  draw_picture(sheet, pictures.projector, report.poses, &PoseReport::projector, "Projector");
   return sheet.finish();
 }
 

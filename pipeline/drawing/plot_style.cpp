@@ -1,6 +1,7 @@
 #include "pipeline/drawing/plot_style.hpp"
 
 #include "pipeline/base/number_text.hpp"
+#include "pipeline/base/size_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,6 +78,31 @@ void PictureFrame::draw(SvgPicture& sheet) const {
     sheet.line(corner + Eigen::Vector2d(0, inside.y()), corner + Eigen::Vector2d(size().x(), inside.y()),
                R"(stroke="#e4e4e4")");
   }
+}
+
+PicturePair::PicturePair(const Calibration& calibration, double height)
+    : camera{{plot_margin, plot_head}, height / calibration.camera.size.height, calibration.camera.size},
+      projector{{2 * plot_margin + camera.size().x(), plot_head},
+                height / calibration.projector.size.height,
+                calibration.projector.size} {}
+
+SvgPicture PicturePair::sheet(const std::vector<PoseReport>& poses, double below, const std::string& title,
+                              const std::string& subtitle) const {
+  const double height = camera.size().y();
+  const double legend_x = projector.corner.x() + projector.size().x() + plot_margin;
+  const PoseLegend legend(poses, height);
+  SvgPicture sheet =
+      plot_sheet(legend_x + legend.width() + plot_margin, plot_head + height + below, title, subtitle);
+  camera.draw(sheet);
+  projector.draw(sheet);
+  legend.draw(sheet, {legend_x, plot_head});
+  return sheet;
+}
+
+void draw_caption(SvgPicture& sheet, const PictureFrame& frame, const std::string& device,
+                  const std::string& content) {
+  sheet.text(frame.corner + Eigen::Vector2d(0, frame.size().y() + 20), label_size,
+             device + ", " + text_of(frame.picture) + " pixels: " + content, styled("fill", plot_ink));
 }
 
 double rms_of(const std::vector<double>& values) {

@@ -3,6 +3,7 @@
 #include "pipeline/base/image.hpp"
 #include "pipeline/calibration/calibration_report.hpp"
 #include "pipeline/drawing/svg_picture.hpp"
+#include "pipeline/geometry/calibration.hpp"
 
 #include <string>
 #include <string_view>
@@ -57,6 +58,21 @@ struct PictureFrame {
   }
   void draw(SvgPicture& sheet) const;
 };
+
+// The camera's and the projector's picture side by side, equally high, the poses' names beside them.
+struct PicturePair {
+  PicturePair(const Calibration& calibration, double height);
+  // The sheet with both frames; `below` them is room.
+  [[nodiscard]] SvgPicture sheet(const std::vector<PoseReport>& poses, double below, const std::string& title,
+                                 const std::string& subtitle) const;
+
+  PictureFrame camera;
+  PictureFrame projector;
+};
+
+// "Camera, 4288 x 2848 pixels: 186 corners", below its frame.
+void draw_caption(SvgPicture& sheet, const PictureFrame& frame, const std::string& device,
+                  const std::string& content);
 
 // The root of the mean square; zero of none.
 double rms_of(const std::vector<double>& values);

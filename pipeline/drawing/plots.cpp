@@ -4,10 +4,10 @@ namespace bodyscan {
 
 std::vector<Plot> calibration_plots(const CalibrationReport& report, const Calibration& calibration,
                                     const PrintedBoard& board) {
-  return {{"residuals.svg", residual_plot(report, calibration)},
-          {"coverage.svg", coverage_plot(report, calibration)},
-          {"poses.svg", pose_plot(report, calibration, board)},
-          {"histogram.svg", residual_histogram(report)}};
+  return {{plot_file_names[0], residual_plot(report, calibration)},
+          {plot_file_names[1], coverage_plot(report, calibration)},
+          {plot_file_names[2], pose_plot(report, calibration, board)},
+          {plot_file_names[3], residual_histogram(report)}};
 }
 
 }  // namespace bodyscan

@@ -70,11 +70,12 @@ TEST_F(BoardCommand, WhatDoesNotFitIsAUsageError) {
 
 TEST_F(BoardCommand, WrongValuesAreUsageErrors) {
   const std::vector<std::pair<std::string, std::string>> values = {
-      {"--columns", "2"},      {"--columns", "101"},  {"--rows", "7.5"},        {"--rows", "many"},
-      {"--square-mm", "0"},    {"--square-mm", "-1"}, {"--square-mm", "1000"},  {"--square-mm", "nan"},
-      {"--output", "b.png"},   {"--output", "b"},     {"--paper", "a5"},        {"--paper", "300"},
-      {"--paper", "300x"},     {"--paper", "0x300"},  {"--paper", "300x400mm"}, {"--paper", "nanx300"},
-      {"--paper", "300x6000"}, {"--colour", "red"},
+      {"--columns", "2"},     {"--columns", "101"},   {"--rows", "7.5"},        {"--rows", "many"},
+      {"--square-mm", "0"},   {"--square-mm", "-1"},  {"--square-mm", "1000"},  {"--square-mm", "nan"},
+      {"--output", "b.png"},  {"--output", "b"},      {"--paper", "a5"},        {"--paper", "300"},
+      {"--paper", "300x"},    {"--paper", "0x300"},   {"--paper", "300x400mm"}, {"--paper", "nanx300"},
+      {"--paper", "300xnan"}, {"--paper", "infx300"}, {"--paper", "300xinf"},   {"--paper", "300x6000"},
+      {"--colour", "red"},
   };
   for (const auto& [option, value] : values) {
     EXPECT_EQ(run("board.pdf", {option, value}), ExitStatus::usage) << option << " " << value;

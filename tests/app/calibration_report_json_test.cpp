@@ -108,9 +108,12 @@ TEST(CalibrationReportJson, NumbersThatAreNoneBecomeNull) {
 TEST(CalibrationReportJson, WhatIsNotKnownIsNull) {
   CalibrationReport report = sample_calibration_report();
   report.leave_one_out_projector_px.reset();
+  report.square_error_percent.reset();
+  report.square_spread_percent.reset();
   report.poses[0].located = false;
   const auto json = nlohmann::json::parse(to_json(report, sample_calibration(), {}));
-  EXPECT_TRUE(json["leave_one_out_projector_px"].is_null());
+  for (const char* key : {"leave_one_out_projector_px", "square_error_percent", "square_spread_percent"})
+    EXPECT_TRUE(json[key].is_null()) << key;
   for (const char* key : {"camera_rms_px", "projector_rms_px", "distance_mm", "tilt_degrees", "plane_rms_mm",
                           "camera_from_board"})
     EXPECT_TRUE(json["poses"][0][key].is_null()) << key;

@@ -76,5 +76,39 @@ TEST_F(OutputFiles, FileThatCannotBeWrittenIsKnownAtOnce) {
   EXPECT_NE(output.error().message.find("nowhere/report.json"), std::string::npos);
 }
 
+TEST_F(OutputFiles, AFolderIsMadeWithItsParentsAndGoesWhileEmpty) {
+  for (const fs::path& path : {folder_ / "a" / "b", folder_ / "a" / "b" / ""}) {
+    {
+      const auto made = OutputFolder::create(path);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_TRUE(fs::is_directory(path));
+    }
+    EXPECT_TRUE(fs::is_empty(folder_));
+  }
+}
+
+TEST_F(OutputFiles, AFolderStaysThatWasThereOrIsFilled) {
+  fs::create_directory(folder_ / "there");
+  {
+    const auto there = OutputFolder::create(folder_ / "there");
+    const auto filled = OutputFolder::create(folder_ / "filled");
+    ASSERT_TRUE(there && filled);
+    fs::create_directory(folder_ / "filled" / "result");
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "there"));
+  EXPECT_TRUE(fs::exists(folder_ / "filled" / "result"));
+}
+
+TEST_F(OutputFiles, AFolderThatCannotBeMadeIsAnOutputError) {
+  std::ignore =
+      OptionalOutput::create(folder_ / "file").and_then([](OptionalOutput file) { return file.commit(); });
+  for (const fs::path& path : {folder_ / "file", folder_ / "file" / "sub" / "plots"}) {
+    const auto made = OutputFolder::create(path);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().kind, ErrorKind::output);
+    EXPECT_TRUE(made.error().message.starts_with(path.string() + ": ")) << made.error().message;
+  }
+}
+
 }  // namespace
 }  // namespace bodyscan

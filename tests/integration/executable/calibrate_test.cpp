@@ -145,6 +145,25 @@ TEST_F(CalibrateExecutable, OverwritesNoPicture) {
   EXPECT_TRUE(read_text(picture) == before);
 }
 
+TEST_F(CalibrateExecutable, KeepsEveryPlotApartFromTheOtherResults) {
+  for (const char* plot : {"residuals.svg", "coverage.svg", "poses.svg", "histogram.svg"}) {
+    const ProcessResult run =
+        calibrate({"--plots", result("plots"), "--report", fs::path(result("plots")) / plot});
+    EXPECT_EQ(run.status, 2) << plot;
+    EXPECT_NE(run.error.find(std::string(plot) + ": named for two results"), std::string::npos) << run.error;
+  }
+  EXPECT_TRUE(results().empty());
+}
+
+TEST_F(CalibrateExecutable, NamesAPlotsFolderThatCannotBeMadeBeforeAPictureIsLookedAt) {
+  write_text(result("file"), "no folder");
+  fs::resize_file(session_ / "pose_0_printed.jpg", 5000);
+  const ProcessResult run = calibrate({"--plots", fs::path(result("file")) / "plots"});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.error.find("file/plots: "), std::string::npos) << run.error;
+  EXPECT_EQ(results(), std::vector<std::string>{"file"});
+}
+
 struct BadSession {
   std::string name;
   std::function<void(const fs::path&)> damage;  // of a sound session folder

@@ -1,3 +1,4 @@
+#include "pipeline/board/board_shift.hpp"
 #include "pipeline/board/find_board.hpp"
 #include "tests/pipeline/board/synthetic_board.hpp"
 
@@ -252,6 +253,15 @@ TEST(WrongBoard, IsNamedBesideTheOneAskedFor) {
     expect_reason(find_printed_board(photo.picture.clone(), asked), reason);
 }
 
+TEST(WrongBoard, IsNamedTooWhereSomeOfItsCornersAreCovered) {
+  Photograph photo = shot({});
+  const Vector2d middle = photo.printed[22];
+  paint(photo.picture, static_cast<int>(middle.x()) - 12, static_cast<int>(middle.y()) - 12,
+        static_cast<int>(middle.x()) + 12, static_cast<int>(middle.y()) + 12, 90);
+  expect_reason(find_printed_board(photo.picture.clone(), {6, 5, 25}),
+                "the board seen has at least 9 x 6 inner corners, not 6 x 5");
+}
+
 TEST(BoardShift, IsHowFarTheBoardMoved) {
   const BoardView before{.roll_degrees = 5};
   Photograph photo = shot(before);
@@ -260,13 +270,13 @@ TEST(BoardShift, IsHowFarTheBoardMoved) {
   for (const double moved : {0.0, 0.5, 2.0}) {
     const Photograph later =
         shot({.middle_px = moved * Vector2d(0.6, 0.8), .roll_degrees = 5}, {.noise = 0.003, .seed = 2});
-    EXPECT_NEAR(board_shift_px(later.picture.clone(), *found).value_or(-1), moved, 0.08) << moved;
+    EXPECT_NEAR(board_shift_px(later.picture.clone(), found->corners).value_or(-1), moved, 0.08) << moved;
   }
   Photograph hidden = shot({.middle_px = {2, 0}, .roll_degrees = 5});
   paint(hidden.picture, 0, 0, 480, 242, 90);
-  EXPECT_FALSE(board_shift_px(std::move(hidden.picture), *found)) << "all but its lowest row";
+  EXPECT_FALSE(board_shift_px(std::move(hidden.picture), found->corners)) << "all but its lowest row";
   const Photograph gone = shot({.middle_px = {5000, 0}});
-  EXPECT_FALSE(board_shift_px(gone.picture.clone(), *found));
+  EXPECT_FALSE(board_shift_px(gone.picture.clone(), found->corners));
 }
 
 // Squares are 32 px: the corners are not where they were, but together they tell.
@@ -276,7 +286,7 @@ TEST(BoardShift, IsKnownUpToHalfASquare) {
   for (const double moved : {5.0, 9.0, 14.0}) {
     const Photograph later =
         shot({.middle_px = moved * Vector2d(0.6, 0.8), .roll_degrees = 6}, {.noise = 0.003, .seed = 2});
-    const auto shift = board_shift_px(later.picture.clone(), *found);
+    const auto shift = board_shift_px(later.picture.clone(), found->corners);
     ASSERT_TRUE(shift) << moved;
     EXPECT_NEAR(*shift, moved, 1.5);
   }

@@ -1,6 +1,7 @@
 #include "pipeline/board/chessboard.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -150,6 +151,17 @@ TEST(GrowingChessboards, NeighboursThatDoNotChangePlacesMakeNoBoard) {
   std::vector<SaddlePoint> saddles = saddles_of(grid(7, 5, {30, 0}, {0, 30}));
   for (SaddlePoint& saddle : saddles) saddle.positive = true;  // dots in a grid, not squares
   EXPECT_TRUE(grow_chessboards(saddles).empty());
+}
+
+// A picture full of small squares must not hold up a session: a fraction of a second, minutes where every
+// corner is compared with every other.
+TEST(GrowingChessboards, AHundredThousandCornersTakeNoMinutes) {
+  const std::vector<SaddlePoint> saddles = saddles_of(grid(400, 250, {6, 0}, {0, 6}));
+  const auto start = std::chrono::steady_clock::now();
+  const auto boards = grow_chessboards(saddles);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  ASSERT_EQ(boards.size(), 1U);
+  EXPECT_EQ(boards[0].found(), 100000);
 }
 
 TEST(GrowingChessboards, NothingFromNothing) {

@@ -1,3 +1,4 @@
+#include "pipeline/board/board_shift.hpp"
 #include "pipeline/board/find_board.hpp"
 #include "tests/pipeline/board/synthetic_board.hpp"
 
@@ -168,7 +169,7 @@ TEST(ProjectedBoard, DoesNotMoveThePrintedOne) {
   const Pair pair = pair_of(on_the_board, {}, light({}));
   const auto below = find_printed_board(pair.printed.clone(), printed_board);
   ASSERT_TRUE(below) << below.error().message;
-  EXPECT_LT(board_shift_px(pair.projected.clone(), *below).value_or(9), 0.5);
+  EXPECT_LT(board_shift_px(pair.projected.clone(), below->corners).value_or(9), 0.5);
 }
 
 TEST(ProjectedBoardMissing, TooDark) {

@@ -24,7 +24,7 @@ TEST_P(Calibrating, FindsTheRig) {
   expect_near_truth(*result, session.truth, 1e-3);
   EXPECT_NEAR(result->report.camera_rms_px, std::sqrt(2.0) * options.camera_noise_px, 0.02);
   EXPECT_LT(result->report.projector_rms_px, 0.08);
-  EXPECT_LT(std::abs(result->report.square_error_percent), 0.03);
+  EXPECT_LT(std::abs(result->report.square_error_percent.value()), 0.03);
   for (const PoseReport& pose : result->report.poses) {
     EXPECT_TRUE(pose.used) << pose.name << ": " << pose.reason;
     EXPECT_LT(pose.plane_rms_mm, 0.3);

@@ -5,9 +5,12 @@
 
 #include <limits>
 #include <set>
+#include <string_view>
 
 namespace bodyscan {
 namespace {
+
+using Eigen::Vector2d;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -19,7 +22,7 @@ constexpr std::size_t used_projector = 3 * 61;
 TEST(CalibrationPlots, AreFourFilesOfWellFormedXml) {
   const SampleReport sample = sample_report(poses);
   const auto plots = calibration_plots(sample.report, sample.calibration, sample.board);
-  std::set<std::string> names;
+  std::set<std::string_view> names;
   for (const Plot& plot : plots) {
     names.insert(plot.file_name);
     const auto elements = read_svg(plot.svg);
@@ -27,37 +30,51 @@ TEST(CalibrationPlots, AreFourFilesOfWellFormedXml) {
     EXPECT_EQ(elements[0].tag, "svg");
     EXPECT_EQ(plot.svg.find("nan"), std::string::npos) << plot.file_name;
   }
-  EXPECT_EQ(names, (std::set<std::string>{"coverage.svg", "histogram.svg", "poses.svg", "residuals.svg"}));
+  EXPECT_EQ(names, std::set<std::string_view>(plot_file_names.begin(), plot_file_names.end()));
 }
 
 TEST(ResidualPlot, HasAnArrowForEveryUsedCornerAndAKey) {
   const SampleReport sample = sample_report(poses);
   const auto elements = read_svg(residual_plot(sample.report, sample.calibration));
-  EXPECT_EQ(of_class(elements, "arrow").size(), used_camera);
-  EXPECT_EQ(of_class(elements, "key").size(), 1U);
+  EXPECT_EQ(of_class(elements, "arrow").size(), used_camera + used_projector);
+  EXPECT_EQ(of_class(elements, "key").size(), 2U);
+  EXPECT_TRUE(shows(elements, "Camera, 4288 x 2848 pixels: 186 corners, 0.28 px RMS"));
+  EXPECT_TRUE(shows(elements, "Projector, 1024 x 768 pixels: 183 corners, 0.29 px RMS"));
   EXPECT_TRUE(shows(elements, "pose 3"));
   EXPECT_TRUE(shows(elements, "pose 2 (left out)"));
 }
 
-TEST(ResidualPlot, ArrowsPointAlongTheErrorAtTheKeysScale) {
+TEST(ResidualPlot, ArrowsPointAlongTheErrorAtTheirPicturesKeysScale) {
   SampleReport sample = sample_report(1);
-  auto& corners = sample.report.poses[0].camera;
-  corners.resize(2);
-  corners[0] = {{-0.5, -0.5}, {0.3, 0}, true};
-  corners[1] = {{4287.5, 2847.5}, {0, -0.1}, true};
+  auto& camera = sample.report.poses[0].camera;
+  auto& projector = sample.report.poses[0].projector;
+  camera = {{{-0.5, -0.5}, {0.3, 0}, true}, {{4287.5, 2847.5}, {0, -0.1}, true}};
+  projector = {{{-0.5, -0.5}, {0, 0.3}, true}, {{1023.5, 767.5}, {-0.15, 0}, true}};
   const auto elements = read_svg(residual_plot(sample.report, sample.calibration));
   const auto arrows = of_class(elements, "arrow");
-  ASSERT_EQ(arrows.size(), 2U);
-  EXPECT_NEAR(arrows[1].number("x1") - arrows[0].number("x1"), 960, 1e-3);
-  EXPECT_NEAR(arrows[1].number("y1") - arrows[0].number("y1"), 960.0 * 2848 / 4288, 1e-3);
-  const double along = arrows[0].number("x2") - arrows[0].number("x1");
-  EXPECT_GT(along, 15);
-  EXPECT_NEAR(arrows[0].number("y2"), arrows[0].number("y1"), 1e-9);
-  EXPECT_NEAR(arrows[1].number("y2") - arrows[1].number("y1"), -along / 3, 1e-3);
-  const auto key = of_class(elements, "key").at(0);
-  const double key_px = (key.number("x2") - key.number("x1")) * 0.3 / along;
-  EXPECT_NEAR(key_px, 0.5, 1e-3);
-  EXPECT_TRUE(shows(elements, "0.5 px (measured minus predicted, 500 times enlarged)"));
+  const auto keys = of_class(elements, "key");
+  ASSERT_EQ(arrows.size(), 4U);
+  ASSERT_EQ(keys.size(), 2U);
+  const auto start = [&](std::size_t i) { return Vector2d(arrows[i].number("x1"), arrows[i].number("y1")); };
+  const auto by = [&](std::size_t i) {
+    return Vector2d(Vector2d(arrows[i].number("x2"), arrows[i].number("y2")) - start(i));
+  };
+  const auto key = [&](std::size_t i) { return keys[i].number("x2") - keys[i].number("x1"); };
+
+  const double height = start(1).y() - start(0).y();
+  EXPECT_LT((start(1) - start(0) - height * Vector2d(4288.0 / 2848, 1)).norm(), 1e-3);
+  EXPECT_GT(by(0).x(), 15);
+  EXPECT_LT((by(1) - Vector2d(0, -by(0).x() / 3)).norm(), 1e-3);
+  EXPECT_NEAR(by(0).y(), 0, 1e-9);
+  EXPECT_NEAR(key(0) * 0.3 / by(0).x(), 0.5, 1e-3);
+  EXPECT_TRUE(shows(elements, "0.5 px, 500 times enlarged"));
+
+  EXPECT_GT(start(2).x(), start(1).x());
+  EXPECT_LT((start(3) - start(2) - height * Vector2d(1024.0 / 768, 1)).norm(), 1e-3);
+  EXPECT_GT(by(2).y(), 15);
+  EXPECT_LT((by(3) - Vector2d(-by(2).y() / 2, 0)).norm(), 1e-3);
+  EXPECT_NEAR(key(1) * 0.3 / by(2).y(), 1, 1e-3);
+  EXPECT_TRUE(shows(elements, "1 px, 100 times enlarged"));
 }
 
 TEST(CoveragePlot, HasDotsAndCrossesInBothPictures) {
