@@ -19,6 +19,7 @@ endfunction()
 bodyscan_archive(ext::zlib ARCHIVES libz.a)
 bodyscan_archive(ext::png ARCHIVES libpng16.a USES ext::zlib)
 bodyscan_archive(ext::jpeg ARCHIVES libjpeg.a)
+bodyscan_archive(ext::drm ARCHIVES libdrm.a INCLUDES /usr/include/libdrm)
 bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
 bodyscan_archive(ext::json)   # nlohmann, header-only
 bodyscan_archive(ext::cli11)  # header-only
