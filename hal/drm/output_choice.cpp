@@ -39,6 +39,10 @@ std::string wanted(const ProjectorChoice& choice) {
          (choice.connector.empty() ? "" : " at " + choice.connector);
 }
 
+std::string preferred(const ProjectorOutput& output) {
+  return output.modes.empty() ? "no mode" : describe(output.modes.front());
+}
+
 std::string offers(const Candidates& candidates) {
   std::vector<std::string> texts;
   for (const ProjectorOutput& output : candidates)
@@ -99,12 +103,10 @@ Expected<void> check_unchanged(const ProjectorOutput& chosen, const ProjectorOut
                                const DisplayMode& mode) {
   if (!plugged_in(now)) return device_error("was unplugged or switched off");
   if (now.edid != chosen.edid) return device_error(now.edid + " is plugged in instead of " + chosen.edid);
-  const auto preferred = [](const ProjectorOutput& output) {
-    return output.modes.empty() ? DisplayMode{} : output.modes.front();
-  };
-  if (preferred(now) != preferred(chosen) || !find_mode(now.modes, mode))
-    return device_error("changed its mode while showing " + describe(mode) + ": it offers " +
-                        describe(now.modes));
+  if (preferred(now) != preferred(chosen))
+    return device_error("changed its mode: it asks for " + preferred(now) +
+                        ", and was opened when it asked for " + preferred(chosen));
+  if (!find_mode(now.modes, mode)) return device_error("no longer offers " + describe(mode));
   return {};
 }
 

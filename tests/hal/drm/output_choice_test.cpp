@@ -95,13 +95,13 @@ TEST(CheckUnchanged, TellsWhatChanged) {
   EXPECT_EQ(error({"HDMI-A-1", "", {}}), "was unplugged or switched off");
   EXPECT_EQ(error({"HDMI-A-1", "ELO 0a01 77", {xga_exact}}),
             "ELO 0a01 77 is plugged in instead of NEC 4a21 1234567");
-  EXPECT_EQ(error({"HDMI-A-1", "NEC 4a21 1234567", {hd}}),
-            "changed its mode while showing 1024 x 768 at 60 Hz: it offers 1280 x 720 at 60 Hz");
   EXPECT_EQ(error({"HDMI-A-1", "NEC 4a21 1234567", {hd, xga_exact}}),
-            "changed its mode while showing 1024 x 768 at 60 Hz: it offers 1280 x 720 at 60 Hz, "
-            "1024 x 768 at 60 Hz");
+            "changed its mode: it asks for 1280 x 720 at 60 Hz, and was opened when it asked for 1024 x 768 "
+            "at 60 Hz");
   EXPECT_EQ(error({"HDMI-A-1", "NEC 4a21 1234567", {}}),
-            "changed its mode while showing 1024 x 768 at 60 Hz: it offers no mode");
+            "changed its mode: it asks for no mode, and was opened when it asked for 1024 x 768 at 60 Hz");
+  EXPECT_EQ(check_unchanged(projector, {"HDMI-A-1", projector.edid, {xga_exact}}, xga_75).error().message,
+            "no longer offers 1024 x 768 at 75.03 Hz");
 }
 
 }  // namespace
