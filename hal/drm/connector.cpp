@@ -10,9 +10,6 @@
 namespace bodyscan {
 namespace {
 
-// Plugged in, but does not say what it is.
-constexpr const char* unidentified = "unidentified";
-
 // As the kernel names it: "HDMI-A-1".
 std::string connector_name(const drmModeConnector& connector) {
   const char* type = drmModeGetConnectorTypeName(connector.connector_type);

@@ -11,6 +11,9 @@
 
 namespace bodyscan {
 
+// In place of the EDID's identity, where something is plugged in that does not say what it is.
+inline constexpr const char* unidentified = "unidentified";
+
 // A connector of the card and what is plugged in there.
 struct Connector {
   std::uint32_t id = 0;

@@ -1,5 +1,6 @@
 #include "hal/drm/drm_master.hpp"
 
+#include "hal/clock.hpp"
 #include "hal/drm/connector.hpp"
 #include "hal/drm/lit_output.hpp"
 #include "hal/drm/output_choice.hpp"
@@ -8,8 +9,12 @@
 #include <algorithm>
 #include <utility>
 
+#include <poll.h>
+
 namespace bodyscan {
 namespace {
+
+constexpr std::int64_t identification_limit_us = 300'000;
 
 Expected<Connector> find_connector(const DrmDevice& device, const std::string& name) {
   Expected<std::vector<Connector>> connectors = read_connectors(device, Probe::remembered);
@@ -19,8 +24,24 @@ Expected<Connector> find_connector(const DrmDevice& device, const std::string& n
   return device_error(device.path() + ": has no connector " + name);
 }
 
+bool is_unidentified(const Connector& connector) {
+  return connector.output.edid == unidentified;
+}
+
+// While a plug moves, and shortly after, a display may be found whose EDID cannot be read.
+Expected<std::vector<Connector>> ask_displays(const DrmDevice& device) {
+  const std::int64_t until_us = monotonic_us() + identification_limit_us;
+  for (;;) {
+    Expected<std::vector<Connector>> connectors = read_connectors(device, Probe::forced);
+    if (!connectors || std::none_of(connectors->begin(), connectors->end(), is_unidentified) ||
+        monotonic_us() > until_us)
+      return connectors;
+    poll(nullptr, 0, 20);
+  }
+}
+
 Expected<std::vector<ProjectorOutput>> outputs_of(const DrmDevice& device) {
-  Expected<std::vector<Connector>> connectors = read_connectors(device, Probe::forced);
+  Expected<std::vector<Connector>> connectors = ask_displays(device);
   if (!connectors) return tl::unexpected(connectors.error());
   std::vector<ProjectorOutput> outputs;
   for (Connector& connector : *connectors) outputs.push_back(std::move(connector.output));
@@ -50,8 +71,7 @@ Expected<std::vector<ProjectorOutput>> DrmMaster::probe() {
 
 Expected<ProjectorOutput> DrmMaster::look_at(const std::string& connector) {
   if (hotplug_.take_change())
-    if (const auto asked = read_connectors(device_, Probe::forced); !asked)
-      return tl::unexpected(asked.error());
+    if (const auto asked = ask_displays(device_); !asked) return tl::unexpected(asked.error());
   return find_connector(device_, connector).map([](Connector&& found) { return std::move(found.output); });
 }
 

@@ -26,7 +26,7 @@ class DrmMaster {
   DrmMaster& operator=(const DrmMaster&) = delete;
   ~DrmMaster();
 
-  // All connectors; every display is asked anew.
+  // All connectors; every display is asked anew, for up to 0.3 s where one does not say what it is.
   Expected<std::vector<ProjectorOutput>> probe();
   // One connector, as the kernel knows it: displays are asked only where one was plugged in or unplugged.
   Expected<ProjectorOutput> look_at(const std::string& connector);

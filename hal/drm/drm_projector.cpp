@@ -51,11 +51,16 @@ void DrmProjector::close() {
 }
 
 Expected<void> DrmProjector::check_present() const {
-  const Expected<ProjectorOutput> now = master_->look_at(output_.connector);
-  if (!now) return tl::unexpected(now.error());
-  if (Expected<void> unchanged = check_unchanged(output_, *now, mode_); !unchanged) return unchanged;
-  if (!master_->is_lit(output_.connector)) return device_error("no longer gets " + describe(mode_));
-  return {};
+  const auto check = [&]() -> Expected<void> {
+    const Expected<ProjectorOutput> now = master_->look_at(output_.connector);
+    return now.and_then(
+        [&](const ProjectorOutput& output) { return check_unchanged(output_, output, mode_); });
+  };
+  Expected<void> unchanged = check();
+  if (!unchanged && master_->probe()) unchanged = check();
+  if (unchanged && !master_->is_lit(output_.connector))
+    return device_error("no longer gets " + describe(mode_));
+  return unchanged;
 }
 
 tl::unexpected<Error> DrmProjector::lose(const Error& reason) {
