@@ -12,6 +12,8 @@
 #include "hal/drm/drm_projector.hpp"
 #include "pipeline/pattern/sequence.hpp"
 
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <iterator>
@@ -109,21 +111,31 @@ class Guest {
   std::string choice_;
 };
 
-}  // namespace
-}  // namespace bodyscan
-
-int main() {
-  const auto master = bodyscan::DrmMaster::open();
+int run() {
+  const auto master = DrmMaster::open();
   if (!master) {
     std::cout << "error: " << master.error().message << std::endl;
     return 1;
   }
-  bodyscan::Guest guest(*master);
+  Guest guest(*master);
   std::cout << "ok" << std::endl;
   for (std::string line; std::getline(std::cin, line);) {
-    const bodyscan::Answer answer = guest.obey(line);
-    const bool device = !answer && answer.error().kind == bodyscan::ErrorKind::device;
+    const Answer answer = guest.obey(line);
+    const bool device = !answer && answer.error().kind == ErrorKind::device;
     std::cout << (answer ? "ok " + *answer : (device ? "error: " : "mistake: ") + answer.error().message)
               << std::endl;
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace bodyscan
+
+int main() {
+  try {
+    return bodyscan::run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "drm_guest: %s\n", error.what());
+    return 1;
   }
 }

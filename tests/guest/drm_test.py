@@ -141,7 +141,8 @@ class Test:
         for lost in (False, True) * 5:
             if lost:
                 self.guest.projector.unplug()
-                until("unplugged once more", lambda: self.guest.ask("show black"), LOST + "was unplugged or switched off")
+                until("unplugged once more", lambda: self.guest.ask("show black"),
+                      LOST + "was unplugged or switched off")
                 self.plug_in("plugged in once more")
             check("close and open", (self.guest.ask("close"), self.open()), ("ok", "ok"))
         check("open descriptors", self.guest.ask("descriptors"), before)

@@ -7,7 +7,7 @@ import struct
 import subprocess
 import time
 
-BOOT_LIMIT_S = 60
+BOOT_LIMIT_S = 120
 ANSWER_LIMIT_S = 20
 
 
@@ -90,7 +90,8 @@ class Head:
 
 
 class Machine:
-    """Boots in `folder`, where its files stay; a context that leaves no process behind."""
+    """Boots in `folder`, where its files stay; a context that leaves no process behind. It has one processor: with two,
+    one emulated boot in about a hundred never reached its workload, and the others took longer."""
 
     def __init__(self, qemu, kernel, initramfs, folder):
         self.folder = pathlib.Path(folder)
@@ -98,10 +99,11 @@ class Machine:
         (image,) = kernel.glob("boot/vmlinuz-*")
         place = lambda name: str(self.folder / name)
         self.process = subprocess.Popen(
-            [qemu, "-nodefaults", "-no-user-config", "-no-reboot", "-machine", "q35", "-accel", "tcg,thread=multi",
-             "-cpu", "Nehalem", "-smp", "2", "-m", "512", "-display", "none", "-vga", "none",
+            ["setpriv", "--pdeathsig", "KILL", qemu, "-nodefaults", "-no-user-config", "-no-reboot", "-machine", "q35",
+             "-accel", "tcg,thread=multi", "-cpu", "Nehalem", "-smp", "1", "-m", "512",
+             "-display", "none", "-vga", "none",
              "-kernel", str(image), "-initrd", place("initramfs"),
-             "-append", "console=ttyS0 quiet panic=-1 vt.global_cursor_default=0",
+             "-append", "console=ttyS0 panic=-1 vt.global_cursor_default=0",
              "-chardev", f"file,id=console,path={place('console')}", "-serial", "chardev:console",
              "-qmp", f"unix:{place('monitor')},server=on,wait=off",
              "-chardev", f"socket,id=port,path={place('port')},server=on,wait=off",
