@@ -43,11 +43,12 @@ Expected<void> run(Arguments& arguments) {
   if (!calibration) return tl::unexpected(calibration.error().within(arguments.rig.string()));
   const Expected<std::unique_ptr<Camera>> camera = make_camera(options.rig.camera);
   if (!camera) return tl::unexpected(camera.error().within(arguments.rig.string()));
-  const std::unique_ptr<Projector> projector =
+  const Expected<std::unique_ptr<Projector>> projector =
       make_projector(options.rig.projector, calibration->projector.size);
+  if (!projector) return tl::unexpected(projector.error());
   const Expected<ScanReport> report = [&] {
     Progress progress;
-    return scan(options, {**camera, *projector, check_interrupt}, progress);
+    return scan(options, {**camera, **projector, check_interrupt}, progress);
   }();
   if (!report) return tl::unexpected(report.error());
   return print_result(arguments.json ? to_json(*report) : describe(*report, options.model.path));

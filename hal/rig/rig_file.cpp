@@ -16,8 +16,8 @@ using std::filesystem::path;
 
 constexpr std::array<std::pair<std::string_view, CameraBackend>, 2> camera_backends{
     {{"gphoto2", CameraBackend::gphoto2}, {"replay", CameraBackend::replay}}};
-constexpr std::array<std::pair<std::string_view, ProjectorBackend>, 1> projector_backends{
-    {{"virtual", ProjectorBackend::virtual_socket}}};
+constexpr std::array<std::pair<std::string_view, ProjectorBackend>, 2> projector_backends{
+    {{"drm", ProjectorBackend::drm}, {"virtual", ProjectorBackend::virtual_socket}}};
 constexpr std::array<std::pair<std::string_view, PatternChoice>, 3> pattern_choices{
     {{"rows", PatternChoice::rows}, {"columns", PatternChoice::columns}, {"both", PatternChoice::both}}};
 
@@ -42,12 +42,15 @@ ProjectorConfig read_projector(const toml::table& file, const path& folder, Prob
   ProjectorConfig projector;
   section.require("backend");
   section.read("backend", projector.backend, projector_backends);
+  section.read("card", projector.card);
+  section.read("connector", projector.connector);
   section.read("socket", projector.socket, folder);
   section.read("edid", projector.edid);
   section.read("refresh_hz", projector.refresh_hz, 10, 1000);
   section.read("settle_ms", projector.settle_ms, 0, 5000);
   section.reject_others();
-  if (section.has("backend")) section.require("socket");
+  if (section.has("backend") && projector.backend == ProjectorBackend::virtual_socket)
+    section.require("socket");
   return projector;
 }
 

@@ -11,7 +11,7 @@
 namespace bodyscan {
 
 enum class CameraBackend { gphoto2, replay };
-enum class ProjectorBackend { virtual_socket };
+enum class ProjectorBackend { drm, virtual_socket };
 enum class PatternChoice { rows, columns, both };
 
 struct CameraConfig {
@@ -22,9 +22,11 @@ struct CameraConfig {
 };
 
 struct ProjectorConfig {
-  ProjectorBackend backend = ProjectorBackend::virtual_socket;
-  std::filesystem::path socket;
-  std::string edid;  // empty: any
+  ProjectorBackend backend = ProjectorBackend::drm;
+  std::string card;              // drm: "/dev/dri/card0"; empty: the first with displays
+  std::string connector;         // drm: "HDMI-A-1"; empty: the only one that fits
+  std::filesystem::path socket;  // virtual
+  std::string edid;              // empty: any
   double refresh_hz = 60;
   double settle_ms = 150;  // from the page flip until the picture is on the wall
 };

@@ -25,6 +25,7 @@ target_link_libraries(ext::gphoto2 INTERFACE gphoto2 gphoto2_port)
 if(NOT EXISTS ${BODYSCAN_ARCHIVES}/libgphoto2.so)
   message(FATAL_ERROR "${BODYSCAN_ARCHIVES}/libgphoto2.so is missing: run tools/setup")
 endif()
+bodyscan_archive(ext::drm ARCHIVES libdrm.a INCLUDES /usr/include/libdrm)
 bodyscan_archive(ext::eigen INCLUDES /usr/include/eigen3)
 bodyscan_archive(ext::json)   # nlohmann, header-only
 bodyscan_archive(ext::cli11)  # header-only

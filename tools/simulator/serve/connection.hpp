@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hal/unique_fd.hpp"
 #include "tools/simulator/serve/ptp/packet.hpp"
-#include "tools/simulator/serve/unique_fd.hpp"
 
 #include <optional>
 #include <span>

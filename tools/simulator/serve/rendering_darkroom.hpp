@@ -1,8 +1,8 @@
 #pragma once
 
+#include "hal/unique_fd.hpp"
 #include "tools/simulator/serve/darkroom.hpp"
 #include "tools/simulator/serve/event_loop.hpp"
-#include "tools/simulator/serve/unique_fd.hpp"
 #include "tools/simulator/serve/wall_light.hpp"
 #include "tools/simulator/serve/world.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "hal/unique_fd.hpp"
 #include "pipeline/base/error.hpp"
 #include "pipeline/base/image.hpp"
-#include "tools/simulator/serve/unique_fd.hpp"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hal/unique_fd.hpp"
 #include "hal/virtual_projector/wire.hpp"
-#include "tools/simulator/serve/unique_fd.hpp"
 
 #include <array>
 #include <cstdint>

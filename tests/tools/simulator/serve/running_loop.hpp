@@ -1,7 +1,7 @@
 #pragma once
 
+#include "hal/unique_fd.hpp"
 #include "tools/simulator/serve/event_loop.hpp"
-#include "tools/simulator/serve/unique_fd.hpp"
 
 #include <functional>
 #include <future>
