@@ -39,6 +39,7 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
       "written, 4 a device failed, 5 the store failed, 6 the result does not reach the quality asked for.");
   Action action;
   add_scan_command(app, action);
+  add_rig_command(app, action);
   add_calibrate_command(app, action);
   add_reconstruct_command(app, action);
   add_board_command(app, action);

@@ -21,6 +21,7 @@ ExitStatus run_command_line(int argc, const char* const* argv);
 void add_board_command(CLI::App& app, Action& action);
 void add_calibrate_command(CLI::App& app, Action& action);
 void add_reconstruct_command(CLI::App& app, Action& action);
+void add_rig_command(CLI::App& app, Action& action);
 void add_scan_command(CLI::App& app, Action& action);
 
 }  // namespace bodyscan
