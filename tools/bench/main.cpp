@@ -22,11 +22,12 @@ namespace bodyscan {
 namespace {
 
 using Part = Expected<std::string> (*)(const BenchOptions&);
-constexpr std::array<std::pair<const char*, Part>, 6> parts{{{"accuracy", accuracy_part},
+constexpr std::array<std::pair<const char*, Part>, 7> parts{{{"accuracy", accuracy_part},
                                                              {"calibration", calibration_part},
                                                              {"speed", speed_part},
                                                              {"growth", growth_part},
                                                              {"streaming", streaming_part},
+                                                             {"scan", scan_part},
                                                              {"executable", executable_part}}};
 
 Expected<void> run_parts(const std::vector<std::string>& wanted, const BenchOptions& options,

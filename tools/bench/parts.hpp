@@ -18,6 +18,7 @@ Expected<std::string> calibration_part(const BenchOptions& options);
 Expected<std::string> speed_part(const BenchOptions& options);
 Expected<std::string> growth_part(const BenchOptions& options);
 Expected<std::string> streaming_part(const BenchOptions& options);
+Expected<std::string> scan_part(const BenchOptions& options);
 Expected<std::string> executable_part(const BenchOptions& options);
 
 }  // namespace bodyscan
