@@ -38,6 +38,8 @@ struct PhaseCode {
   int steps = 5;
   int finest_bit = 2;
 
+  [[nodiscard]] constexpr int lit_px() const { return period_px / 2; }  // of a period
+
   static constexpr int max_period = 64;
   static constexpr int max_finest_bit = 2;
 
@@ -49,7 +51,7 @@ struct PhaseCode {
 struct SequenceOptions {
   bool rows = true;
   bool columns = false;
-  bool inverses = true;            // each bit is followed by its complement; not with a phase code
+  bool inverses = true;                 // each bit is followed by its complement; not with a phase code
   std::optional<PhaseCode> phase = {};  // instead of the finest bits
 };
 
