@@ -2,9 +2,13 @@
 
 #include "pipeline/base/instruction_set.hpp"
 #include "pipeline/base/parallel.hpp"
+#include "pipeline/decode/response.hpp"
 
 namespace bodyscan {
 namespace {
+
+// Of two pictures; a mean that contradicts white and black must not overflow differences.
+constexpr float brightest = 2 * linear_full_scale;
 
 struct Mix {
   // sum += weight (mean + unlit contrast - sum), `unlit` the share of white that the mean lacks, times two.
@@ -14,7 +18,8 @@ struct Mix {
     for (int x = 0; x < width; ++x) {
       const float before = static_cast<float>(sum[x]);
       const float measured = static_cast<float>(mean[x]) + unlit * static_cast<float>(contrast[x]);
-      sum[x] = static_cast<std::uint16_t>(before + weight * (measured - before) + 0.5F);
+      const float mixed = before + weight * (measured - before) + 0.5F;
+      sum[x] = static_cast<std::uint16_t>(mixed < brightest ? mixed : brightest);
     }
   }
 };

@@ -42,9 +42,8 @@ double stripes(int bit, int count, double position, double blur) {
 
 // The same from the rows that a phase step lights.
 double phase_stripes(const Pattern& pattern, int count, double position, double blur) {
-  if (blur > 2 * pattern.period_px)
-    return (pattern.period_px / 2) / static_cast<double>(pattern.period_px) *
-           stripes(-1, count, position, blur);
+  const int lit = pattern.period_px / 2;
+  if (blur > 2 * pattern.period_px) return stripes(-1, count, position, blur) * lit / pattern.period_px;
   const double reach = 6 * blur + 1;
   const int first = std::max(0, static_cast<int>(std::floor(position - reach)));
   const int last = std::min(count - 1, static_cast<int>(std::ceil(position + reach)));
