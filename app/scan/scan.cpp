@@ -19,6 +19,7 @@ namespace {
 constexpr int depth_step = 8;  // px between the points that the subject's distance is taken from
 
 Expected<PatternSequence> sequence_of(const Rig& rig, Size projector) {
+  if (rig.scan.patterns == PatternChoice::fast) return make_sequence(projector, fast_sequence);
   SequenceOptions options;
   options.rows = rig.scan.patterns != PatternChoice::columns;
   options.columns = rig.scan.patterns != PatternChoice::rows;

@@ -1,6 +1,7 @@
 #include "hal/replay/capture_manifest.hpp"
 
 #include "hal/replay/manifest_fields.hpp"
+#include "hal/replay/sequence_check.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -15,10 +16,6 @@ Expected<Axis> axis(const JsonNode& node) {
     if (name == "column") return Axis::column;
     return node.error("\"" + name + "\" is neither row nor column");
   });
-}
-
-int count_along(Axis axis, Size projector) {
-  return axis == Axis::row ? projector.height : projector.width;
 }
 
 Expected<Pattern> gray_pattern(const JsonNode& frame, Size projector) {
@@ -44,6 +41,27 @@ Expected<Pattern> gray_pattern(const JsonNode& frame, Size projector) {
   return pattern;
 }
 
+Expected<Pattern> phase_pattern(const JsonNode& frame) {
+  Pattern pattern{.kind = PatternKind::phase};
+  const Expected<Axis> along = required(frame, "axis", axis);
+  if (!along) return tl::unexpected(along.error());
+  pattern.axis = *along;
+  const auto integer = [&](const char* key, int low, int high, int& target) -> Expected<void> {
+    return required(frame, key, [&](const JsonNode& node) { return integer_between(node, low, high); })
+        .map([&](int value) { target = value; });
+  };
+  constexpr int most = PhaseCode::max_period;
+  if (auto read = integer("period_px", 3, most, pattern.period_px); !read)
+    return tl::unexpected(read.error());
+  if (auto read = integer("steps", 3, most, pattern.steps); !read) return tl::unexpected(read.error());
+  if (auto read = integer("step", 0, pattern.steps - 1, pattern.step); !read)
+    return tl::unexpected(read.error());
+  if (pattern.period_px % pattern.steps != 0)
+    return frame.optional("steps").error(std::to_string(pattern.steps) + " does not divide the period of " +
+                                         std::to_string(pattern.period_px));
+  return pattern;
+}
+
 Expected<Pattern> pattern_of(const JsonNode& frame, Size projector) {
   const Expected<JsonNode> node = frame.member("pattern");
   const Expected<std::string> name = node.and_then(json_text);
@@ -51,7 +69,8 @@ Expected<Pattern> pattern_of(const JsonNode& frame, Size projector) {
   if (*name == "white") return Pattern{.kind = PatternKind::white};
   if (*name == "black") return Pattern{.kind = PatternKind::black};
   if (*name == "gray") return gray_pattern(frame, projector);
-  return node->error("\"" + *name + "\" is not a pattern that can be decoded (white, black, gray)");
+  if (*name == "phase") return phase_pattern(frame);
+  return node->error("\"" + *name + "\" is not a pattern that can be decoded (white, black, gray, phase)");
 }
 
 Expected<ManifestFrame> frame_of(const JsonNode& node, Size projector) {
@@ -68,8 +87,12 @@ Expected<ManifestFrame> frame_of(const JsonNode& node, Size projector) {
   return frame;
 }
 
+// The axis's phase steps come before its bits.
 auto decode_order(const Pattern& pattern) {
-  return std::tuple(pattern.kind, pattern.axis, -pattern.bit, pattern.inverted);
+  const bool striped = pattern.kind == PatternKind::gray || pattern.kind == PatternKind::phase;
+  const auto kind = striped ? PatternKind::gray : pattern.kind;
+  return std::tuple(kind, pattern.axis, pattern.kind == PatternKind::gray, pattern.step, -pattern.bit,
+                    pattern.inverted);
 }
 
 Expected<std::vector<ManifestFrame>> frames_of(const JsonNode& node, Size projector) {
@@ -90,41 +113,6 @@ Expected<std::vector<ManifestFrame>> frames_of(const JsonNode& node, Size projec
     return decode_order(a.pattern) < decode_order(b.pattern);
   });
   return frames;
-}
-
-bool shows(const std::vector<ManifestFrame>& frames, const Pattern& pattern) {
-  return std::any_of(frames.begin(), frames.end(),
-                     [&](const auto& frame) { return frame.pattern == pattern; });
-}
-
-Expected<void> check_axis(const std::vector<ManifestFrame>& frames, Axis axis, Size projector) {
-  const auto of_axis = [&](const ManifestFrame& frame) {
-    return frame.pattern.kind == PatternKind::gray && frame.pattern.axis == axis;
-  };
-  if (std::none_of(frames.begin(), frames.end(), of_axis)) return {};
-  const bool inverses = std::any_of(frames.begin(), frames.end(), [&](const ManifestFrame& frame) {
-    return of_axis(frame) && frame.pattern.inverted;
-  });
-  for (int bit = gray_bits(count_along(axis, projector)) - 1; bit >= 0; --bit) {
-    for (const bool inverted : {false, true}) {
-      if (inverted && !inverses) continue;
-      const Pattern pattern{PatternKind::gray, axis, bit, inverted};
-      if (!shows(frames, pattern))
-        return input_error("frames: " + describe(pattern) + " is missing" +
-                           (inverted ? " (other inverses are there)" : ""));
-    }
-  }
-  return {};
-}
-
-Expected<void> check_complete(const std::vector<ManifestFrame>& frames, Size projector) {
-  for (const PatternKind kind : {PatternKind::white, PatternKind::black})
-    if (!shows(frames, {.kind = kind}))
-      return input_error("frames: " + describe({.kind = kind}) + " is missing");
-  for (const Axis axis : {Axis::row, Axis::column})
-    if (Expected<void> complete = check_axis(frames, axis, projector); !complete) return complete;
-  if (frames.size() <= 2) return input_error("frames: there is no gray pattern");
-  return {};
 }
 
 Expected<ToneResponse> response_of(const JsonNode& node) {
@@ -162,7 +150,7 @@ Expected<CaptureManifest> manifest_of(const JsonNode& root) {
       required(root, "frames", [&](const JsonNode& node) { return frames_of(node, *projector); });
   if (!frames) return tl::unexpected(frames.error());
   manifest.frames = std::move(*frames);
-  if (Expected<void> complete = check_complete(manifest.frames, *projector); !complete)
+  if (Expected<void> complete = check_sequence(manifest.frames, *projector); !complete)
     return tl::unexpected(complete.error());
   if (Expected<void> read = read_optional_keys(root, manifest); !read) return tl::unexpected(read.error());
   return manifest;

@@ -20,7 +20,7 @@ struct ManifestFrame {
 };
 
 // capture.json: which picture shows which pattern. Complete: white, black, and for each axis that occurs
-// every bit once, with all the inverses or none.
+// every bit once, with all the inverses or none, or every phase step and the coarser bits.
 struct CaptureManifest {
   Size projector;
   std::vector<ManifestFrame> frames;     // in decode order, see parse_manifest
@@ -35,9 +35,9 @@ struct CaptureManifest {
 constexpr std::size_t max_manifest_bytes = std::size_t{1} << 20;
 
 // `name` stands in front of messages: "capture.json: frames[3].bit: 12 does not exist for 768 rows". Frames
-// come out in decode order whatever the text's: white, black, rows, columns; within an axis the coarsest bit
-// first, each pattern before its inverse. Where "inverted" is not given it is false; unknown keys are
-// ignored.
+// come out in decode order whatever the text's: white, black, rows, columns; within an axis phase
+// steps, then the coarsest bit first, each pattern before its inverse. Where "inverted" is not given it is
+// false; unknown keys are ignored.
 Expected<CaptureManifest> parse_manifest(std::string_view text, const std::string& name);
 
 // The file, overwriting one of that name; frames in the given order.

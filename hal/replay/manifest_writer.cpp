@@ -10,13 +10,28 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const ManifestFrame& frame) {
   Json json{{"file", frame.file}};
-  if (frame.pattern.kind == PatternKind::gray) {
-    json["pattern"] = "gray";
-    json["axis"] = frame.pattern.axis == Axis::row ? "row" : "column";
-    json["bit"] = frame.pattern.bit;
-    json["inverted"] = frame.pattern.inverted;
-  } else {
-    json["pattern"] = frame.pattern.kind == PatternKind::white ? "white" : "black";
+  const Pattern& pattern = frame.pattern;
+  const char* axis = pattern.axis == Axis::row ? "row" : "column";
+  switch (pattern.kind) {
+    case PatternKind::white:
+      json["pattern"] = "white";
+      break;
+    case PatternKind::black:
+      json["pattern"] = "black";
+      break;
+    case PatternKind::gray:
+      json["pattern"] = "gray";
+      json["axis"] = axis;
+      json["bit"] = pattern.bit;
+      json["inverted"] = pattern.inverted;
+      break;
+    case PatternKind::phase:
+      json["pattern"] = "phase";
+      json["axis"] = axis;
+      json["period_px"] = pattern.period_px;
+      json["step"] = pattern.step;
+      json["steps"] = pattern.steps;
+      break;
   }
   if (frame.timestamp_us) json["timestamp_us"] = *frame.timestamp_us;
   return json;

@@ -18,8 +18,11 @@ constexpr std::array<std::pair<std::string_view, CameraBackend>, 2> camera_backe
     {{"gphoto2", CameraBackend::gphoto2}, {"replay", CameraBackend::replay}}};
 constexpr std::array<std::pair<std::string_view, ProjectorBackend>, 2> projector_backends{
     {{"drm", ProjectorBackend::drm}, {"virtual", ProjectorBackend::virtual_socket}}};
-constexpr std::array<std::pair<std::string_view, PatternChoice>, 3> pattern_choices{
-    {{"rows", PatternChoice::rows}, {"columns", PatternChoice::columns}, {"both", PatternChoice::both}}};
+constexpr std::array<std::pair<std::string_view, PatternChoice>, 4> pattern_choices{
+    {{"rows", PatternChoice::rows},
+     {"columns", PatternChoice::columns},
+     {"both", PatternChoice::both},
+     {"fast", PatternChoice::fast}}};
 
 CameraConfig read_camera(const toml::table& file, const path& folder, Problems& problems) {
   TomlSection section(file, "camera", problems);

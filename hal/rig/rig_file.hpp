@@ -12,7 +12,7 @@ namespace bodyscan {
 
 enum class CameraBackend { gphoto2, replay };
 enum class ProjectorBackend { drm, virtual_socket };
-enum class PatternChoice { rows, columns, both };
+enum class PatternChoice { rows, columns, both, fast };
 
 struct CameraConfig {
   CameraBackend backend = CameraBackend::gphoto2;

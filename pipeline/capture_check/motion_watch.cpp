@@ -32,7 +32,8 @@ void MotionWatch::look(int index, const Luma& photograph) {
   const Pattern& pattern = patterns_[at_end ? 0 : static_cast<std::size_t>(index)];
   const bool has_inverse = index + 1 < static_cast<int>(patterns_.size()) &&
                            patterns_[static_cast<std::size_t>(index) + 1].inverted;
-  if (pattern.kind == PatternKind::gray && !pattern.inverted && !has_inverse) return;
+  const bool white_or_black = pattern.kind == PatternKind::white || pattern.kind == PatternKind::black;
+  if (!white_or_black && !pattern.inverted && !has_inverse) return;
   FloatImage view = reduce(photograph, factor_, response_);
   if (at_end) {
     moved_at_end_ = motion_between(white_, view, factor_);
@@ -66,7 +67,7 @@ SequenceMotion MotionWatch::motion() const {
   bool known = true;
   for (std::size_t i = 0; i < patterns_.size(); ++i) {
     const auto unit = moved_.find(static_cast<int>(patterns_[i].inverted ? i - 1 : i));
-    if (patterns_[i].kind == PatternKind::gray && unit == moved_.end()) known = false;
+    if (i > 1 && unit == moved_.end()) known = false;
     result.by_pattern_px.push_back(unit == moved_.end() ? start_px
                                                         : note(between(unit->second, moved_at_end_)));
   }

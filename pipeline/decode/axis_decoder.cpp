@@ -3,15 +3,28 @@
 #include "pipeline/decode/camera_blur.hpp"
 #include "pipeline/decode/local_fit.hpp"
 #include "pipeline/decode/outshone.hpp"
+#include "pipeline/decode/phase_locator.hpp"
 #include "pipeline/decode/stripe_locator.hpp"
 
 #include <limits>
 #include <utility>
 
 namespace bodyscan {
+namespace {
 
-AxisDecoder::AxisDecoder(Size camera, int count)
-    : count_(count), planes_(std::in_place, camera, gray_bits(count)), sampled_(camera) {
+// Of one picture, from that of twice a picture less white and black as of MiddleLight.
+NoiseModel picture_noise(const NoiseModel& difference, float middle_variance) {
+  const float share = 1 / (4 + middle_variance);
+  return {share * difference.constant, share * difference.slope};
+}
+
+}  // namespace
+
+AxisDecoder::AxisDecoder(Size camera, int count, const std::optional<PhaseCode>& phase)
+    : count_(count),
+      planes_(std::in_place, camera, gray_bits(count), phase ? phase->finest_bit : 0),
+      sampled_(camera) {
+  if (phase) phase_.emplace(camera, *phase);
   // Written to, so that the system hands the memory out now and not after the last frame.
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   result_ = {FloatImage(camera, none), FloatImage(camera, none)};
@@ -23,10 +36,20 @@ void AxisDecoder::add(int bit, const Luma& pattern, const Luma& inverse,
   taken(bit, light);
 }
 
-void AxisDecoder::add_against(int bit, const Luma& pattern, const Image<std::uint16_t>& middle,
+void AxisDecoder::add_against(int bit, const Luma& pattern, const MiddleLight& middle,
                               std::span<const std::uint16_t> linear, const Illumination& light) {
-  planes_->add_against(bit, pattern, middle, linear);
+  planes_->add_against(bit, pattern, middle.twice(), linear);
+  middle_variance_ = middle.variance();
   taken(bit, light);
+}
+
+void AxisDecoder::add_step(int step, const Luma& picture, std::span<const std::uint16_t> linear,
+                           const Illumination& light, MiddleLight& middle) {
+  phase_->add(step, picture, linear);
+  if (step < phase_->code().steps - 1) return;
+  middle.refine(*phase_, light.contrast);
+  amplitude_.emplace(*phase_, light.contrast);
+  harmonic_.emplace(*phase_, light.contrast);
 }
 
 void AxisDecoder::rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {
@@ -35,26 +58,34 @@ void AxisDecoder::rescale(const Image<std::uint16_t>& before, const Image<std::u
 }
 
 void AxisDecoder::taken(int bit, const Illumination& light) {
-  if (bit == 1) measure_coarser_bits(light);
-  complete_ = bit == 0;
+  if (bit == finest_bit() + 1) measure_coarser_bits(light);
+  complete_ = bit == finest_bit();
 }
 
 void AxisDecoder::measure_coarser_bits(const Illumination& light) {
   noise_ = measure_noise(*planes_, light.contrast);
+  if (phase_) return;
   energy_.emplace(light.contrast, noise_);
   for (int bit = 1; bit < StripePlanes::fine_bits; ++bit)
     energy_->add(bit, planes_->fine[static_cast<std::size_t>(bit)], light.contrast);
 }
 
+StripeResolution AxisDecoder::resolve(const Illumination& light, const DecodeOptions& options) {
+  if (phase_) return uniform_resolution(light.contrast.size(), finest_bit());
+  if (!energy_) measure_coarser_bits(light);
+  energy_->add(0, planes_->fine.front(), light.contrast);
+  return energy_->resolve(planes_->bit_count, options.max_dropped_bits);
+}
+
 AxisCorrespondence AxisDecoder::finish(const Illumination& light, const DecodeOptions& options) {
   const Image<std::uint16_t>& contrast = light.contrast;
-  if (!energy_) measure_coarser_bits(light);
-  energy_->add(0, planes_->fine.front(), contrast);
-  const StripeLocator locator(*planes_, contrast, noise_,
-                              energy_->resolve(planes_->bit_count, options.max_dropped_bits), count_,
-                              options);
+  const StripeLocator locator(*planes_, contrast, noise_, resolve(light, options), count_, options);
+  std::optional<PhaseLocator> phase;
+  if (phase_)
+    phase.emplace(*phase_, *amplitude_, *harmonic_, contrast, picture_noise(noise_, middle_variance_));
   const CoordinateRows as_seen = [&](const RowRange& rows, const RowArrays& arrays) {
     locator.locate(rows, arrays);
+    if (phase) phase->refine(rows, arrays);
     drop_outshone(contrast, options.brightness_edges, rows, arrays);
   };
   sampled_->measure(as_seen);
@@ -67,6 +98,7 @@ AxisCorrespondence AxisDecoder::finish(const Illumination& light, const DecodeOp
   AxisCorrespondence result = std::move(result_);
   fit_locally(sharpened, gradients.px_per_unit(), options.fit, result);
   planes_.reset();
+  phase_.reset();
   energy_.reset();
   sampled_.reset();
   return result;

@@ -24,19 +24,6 @@ void copy_luma(const Luma& from, Luma& to) {
   std::visit([&](const auto& image) { copy_pixels(image, to); }, from);
 }
 
-Image<std::uint16_t> sum_linear(const Luma& white, const Luma& black,
-                                const std::vector<std::uint16_t>& linear) {
-  Image<std::uint16_t> sum(size_of(white));
-  std::visit(
-      [&](const auto& w) {
-        const auto& b = std::get<std::decay_t<decltype(w)>>(black);
-        for (std::size_t i = 0; i < sum.size().area(); ++i)
-          sum.data()[i] = static_cast<std::uint16_t>(linear[w.data()[i]] + linear[b.data()[i]]);
-      },
-      white);
-  return sum;
-}
-
 std::size_t count_decoded(const Correspondence& found) {
   std::atomic<std::size_t> decoded = 0;
   parallel_for(0, found.camera.height, 64, [&](int begin, int end) {
@@ -51,6 +38,23 @@ std::size_t count_decoded(const Correspondence& found) {
   return decoded;
 }
 
+// The options under which make_sequence would make these patterns, if there are any.
+SequenceOptions shape_of(const std::vector<Pattern>& patterns) {
+  SequenceOptions shape{.rows = false, .columns = false, .inverses = false, .phase = {}};
+  int finest = PhaseCode::max_finest_bit + 1;
+  for (const Pattern& pattern : patterns) {
+    if (pattern.kind == PatternKind::white || pattern.kind == PatternKind::black) continue;
+    (pattern.axis == Axis::row ? shape.rows : shape.columns) = true;
+    shape.inverses |= pattern.inverted;
+    if (pattern.kind == PatternKind::phase)
+      shape.phase = PhaseCode{.period_px = pattern.period_px, .steps = pattern.steps, .finest_bit = 0};
+    else
+      finest = std::min(finest, pattern.bit);
+  }
+  if (shape.phase) shape.phase->finest_bit = finest;
+  return shape;
+}
+
 }  // namespace
 
 Decoder::Decoder(PatternSequence sequence, const DecodeOptions& options)
@@ -58,21 +62,17 @@ Decoder::Decoder(PatternSequence sequence, const DecodeOptions& options)
 
 Expected<Decoder> Decoder::create(PatternSequence sequence, const DecodeOptions& options) {
   if (auto checked = options.check(); !checked) return tl::unexpected(checked.error());
-  SequenceOptions shape{.rows = false, .columns = false, .inverses = false};
-  for (const Pattern& pattern : sequence.patterns) {
-    if (pattern.kind != PatternKind::gray) continue;
-    (pattern.axis == Axis::row ? shape.rows : shape.columns) = true;
-    shape.inverses |= pattern.inverted;
-  }
+  const SequenceOptions shape = shape_of(sequence.patterns);
   const auto canonical = make_sequence(sequence.projector, shape);
   if (!canonical) return tl::unexpected(canonical.error());
   if (canonical->patterns != sequence.patterns)
     return tl::unexpected(
         Error{ErrorKind::usage,
-              "the sequence must be white, black, then rows and columns bit by bit, coarsest "
-              "first, each with its inverse or all without"});
+              "the sequence must be white, black, then rows and columns: phase steps if any, then bit by "
+              "bit, coarsest first, each with its inverse or all without"});
   Decoder decoder(std::move(sequence), options);
   decoder.inverses_ = shape.inverses;
+  decoder.phase_ = shape.phase;
   return decoder;
 }
 
@@ -88,7 +88,8 @@ Expected<void> Decoder::consume(const Frame& frame) {
   camera_ = size_of(frame.luma);
   depth_ = frame.luma.index();
   ++next_;
-  return frame.pattern.kind == PatternKind::gray ? consume_bit(frame) : consume_white_black(frame);
+  const bool whole = frame.pattern.kind == PatternKind::white || frame.pattern.kind == PatternKind::black;
+  return whole ? consume_white_black(frame) : consume_stripes(frame);
 }
 
 Expected<void> Decoder::consume_white_black(const Frame& frame) {
@@ -107,7 +108,7 @@ Expected<void> Decoder::use_response(const ToneResponse& response) {
   auto light = measure_illumination(white_, black_, options_.min_contrast, linear_);
   if (!light) return tl::unexpected(light.error());
   light_ = std::move(*light);
-  if (!inverses_) middle_ = sum_linear(white_, black_, linear_);
+  if (!inverses_) middle_ = MiddleLight(white_, black_, linear_);
   if (response_settled_) {
     white_ = {};
     black_ = {};
@@ -129,22 +130,32 @@ Expected<void> Decoder::settle_response(const Luma& pattern, const Luma& inverse
   return {};
 }
 
-Expected<void> Decoder::consume_bit(const Frame& frame) {
+Expected<void> Decoder::consume_stripes(const Frame& frame) {
   const Pattern& pattern = frame.pattern;
   OneAxis& axis = of(pattern.axis);
   if (!axis.decoder) {
     const Size projector = sequence_.projector;
-    axis.decoder.emplace(camera_, pattern.axis == Axis::row ? projector.height : projector.width);
+    axis.decoder.emplace(camera_, count_along(pattern.axis, projector), phase_);
   }
+  if (pattern.kind == PatternKind::phase) {
+    axis.decoder->add_step(pattern.step, frame.luma, linear_, light_, middle_);
+    return {};
+  }
+  if (auto taken = consume_bit(*axis.decoder, frame); !taken) return taken;
+  if (axis.decoder->complete() && response_settled_ && next_ < sequence_.patterns.size()) finish_axis(axis);
+  return {};
+}
+
+Expected<void> Decoder::consume_bit(AxisDecoder& axis, const Frame& frame) {
+  const Pattern& pattern = frame.pattern;
   if (!inverses_) {
-    axis.decoder->add_against(pattern.bit, frame.luma, middle_, linear_, light_);
+    axis.add_against(pattern.bit, frame.luma, middle_, linear_, light_);
   } else if (pattern.inverted) {
     if (auto settled = settle_response(held_, frame.luma); !settled) return settled;
-    axis.decoder->add(pattern.bit, held_, frame.luma, linear_, light_);
+    axis.add(pattern.bit, held_, frame.luma, linear_, light_);
   } else {
     copy_luma(frame.luma, held_);
   }
-  if (axis.decoder->complete() && response_settled_ && next_ < sequence_.patterns.size()) finish_axis(axis);
   return {};
 }
 

@@ -56,9 +56,10 @@ void subtract_middle(int width, const Pixel* pattern, const std::uint16_t* middl
 
 }  // namespace
 
-StripePlanes::StripePlanes(Size camera, int count)
+StripePlanes::StripePlanes(Size camera, int count, int finest_bit)
     : bit_count(count), gray(camera, 0), coarse(camera, std::numeric_limits<std::uint16_t>::max()) {
-  for (auto& plane : fine) plane = Image<std::int16_t>(camera, 0);
+  for (int bit = finest_bit; bit < fine_bits; ++bit)
+    fine[static_cast<std::size_t>(bit)] = Image<std::int16_t>(camera, 0);
 }
 
 void StripePlanes::rescale(const Image<std::uint16_t>& before, const Image<std::uint16_t>& now) {

@@ -15,7 +15,8 @@ namespace bodyscan {
 struct StripePlanes {
   static constexpr int fine_bits = 3;
 
-  StripePlanes(Size camera, int bit_count);
+  // Bits below `finest_bit` do not come and take no memory.
+  StripePlanes(Size camera, int bit_count, int finest_bit = 0);
 
   int bit_count = 0;
   Image<std::uint16_t> gray;                        // Gray code, a bit set where the pattern beat its inverse

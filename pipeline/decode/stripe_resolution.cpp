@@ -56,6 +56,10 @@ Size blocks_of(Size camera) {
 
 }  // namespace
 
+StripeResolution uniform_resolution(Size camera, int dropped) {
+  return {Image<std::uint8_t>(blocks_of(camera), static_cast<std::uint8_t>(dropped))};
+}
+
 StripeEnergy::StripeEnergy(const Image<std::uint16_t>& contrast, const NoiseModel& noise)
     : blocks_(blocks_of(contrast.size()), Block{}) {
   for_each_block_row(contrast.size(), [&](int by, int first, int last) {

@@ -18,6 +18,9 @@ struct StripeResolution {
   [[nodiscard]] int at(int x, int y) const { return dropped(x / block_px, y / block_px); }
 };
 
+// The same number of bits everywhere.
+StripeResolution uniform_resolution(Size camera, int dropped);
+
 // How strongly stripes show, block by block: energies of the fine bits' differences over lit pixels, bit by
 // bit as they come, then of white minus black, which stands for all bits beyond.
 class StripeEnergy {

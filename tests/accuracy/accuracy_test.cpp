@@ -1,14 +1,9 @@
+#include "tests/accuracy/simulated_scan.hpp"
 #include "tests/accuracy/thresholds.hpp"
-#include "tests/support/temporary_folder.hpp"
-#include "tools/bench/child_process.hpp"
 #include "tools/bench/scenes.hpp"
-#include "tools/evaluate/evaluation.hpp"
-#include "tools/simulator/capture_folder.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +11,6 @@ namespace bodyscan {
 namespace {
 
 constexpr double quarter = 0.25;
-constexpr double footprint_mm = 0.66;  // of a pixel at 1.05 m: finer true meshes only take time
 
 class Accuracy : public testing::TestWithParam<Thresholds> {};
 
@@ -49,22 +43,7 @@ void check_shapes(const Evaluation& result, const Thresholds& limit) {
 
 TEST_P(Accuracy, OfASimulatedScene) {
   const Thresholds& limit = GetParam();
-  const TemporaryFolder folder;
-  const std::filesystem::path capture = folder.path() / "capture";
-  simulator::RenderOptions options = bench_scene(limit.scene, quarter).value().options;
-  options.output = capture;
-  options.detail = footprint_mm;
-  const auto rendered = simulator::render_capture(options);
-  ASSERT_TRUE(rendered) << rendered.error().message;
-
-  const std::filesystem::path model = folder.path() / "model.wrl";
-  const Expected<ProcessUsage> run =
-      run_program({BODYSCAN_EXECUTABLE, "reconstruct", capture.string(), "--calibration",
-                   (capture / "calibration.yml").string(), "--output", model.string()});
-  ASSERT_TRUE(run) << run.error().message;
-  ASSERT_EQ(run->exit_status, 0);
-
-  const Expected<Evaluation> result = evaluate_files(model, capture);
+  const Expected<Evaluation> result = scan_simulated(bench_scene(limit.scene, quarter).value().options);
   ASSERT_TRUE(result) << result.error().message;
   std::cout << to_table(*result);
   EXPECT_LE(result->deviation.rms, limit.rms);

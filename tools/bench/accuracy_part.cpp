@@ -110,7 +110,8 @@ Expected<std::string> accuracy_part(const BenchOptions& options) {
   const std::string text =
       "## Accuracy\n\nSimulated captures, judged against the true surface by `bodyscan-evaluate`: 22 frames "
       "(rows "
-      "and columns: 42), projector 1024 x 768 unless said. RMS, bias and range are over all points of the "
+      "and columns: 42; 15 pictures: the fast sequence), projector 1024 x 768 unless said. RMS, bias and "
+      "range are over all points of the "
       "model.\n\n";
   Expected<std::string> half = table_at(options, accuracy_scenes(0.5), 0.5, "2144 x 1424");
   if (!half) return half;

@@ -42,6 +42,11 @@ RenderOptions seen_from(const std::string& rig, bool rows, bool columns, RenderO
   return options;
 }
 
+RenderOptions fast(RenderOptions options) {
+  options.sequence = fast_sequence;
+  return options;
+}
+
 RenderOptions rolled(double degrees, RenderOptions options) {
   options.rig.projector_roll = degrees;
   return options;
@@ -64,6 +69,8 @@ std::vector<BenchScene> accuracy_scenes(double scale) {
       {"both", "rows and columns", seen_from("diagonal", true, true, spheres)},
       {"bumps", "bumps, matt", subject("bumps", scale)},
       {"bumps_skin", "bumps, skin", skin(subject("bumps", scale))},
+      {"fast", "plate and spheres, 15 pictures", fast(spheres)},
+      {"fast_skin", "skin, head, 15 pictures", fast(head)},
       {"roll_90", "projector turned by 90 degrees", rolled(90, spheres)},
       {"roll_180", "projector turned by 180 degrees", rolled(180, spheres)},
       {"roll_30", "projector turned by 30 degrees", rolled(30, spheres)},

@@ -49,6 +49,13 @@ Json capture_json(const PatternSequence& sequence, FrameFormat format) {
         frame["bit"] = pattern.bit;
         frame["inverted"] = pattern.inverted;
         break;
+      case PatternKind::phase:
+        frame["pattern"] = "phase";
+        frame["axis"] = pattern.axis == Axis::row ? "row" : "column";
+        frame["period_px"] = pattern.period_px;
+        frame["step"] = pattern.step;
+        frame["steps"] = pattern.steps;
+        break;
     }
     capture["frames"].push_back(std::move(frame));
   }
@@ -66,6 +73,7 @@ Json settings_json(const RenderOptions& options) {
                 {"rows", options.sequence.rows},
                 {"columns", options.sequence.columns},
                 {"inverses", options.sequence.inverses},
+                {"patterns", options.sequence.phase ? "fast" : "thesis"},
                 {"largest_incidence_degrees", largest_incidence_degrees}};
   settings.update(rig_and_camera_json(options));
   return settings;

@@ -7,7 +7,7 @@ std::vector<float> pixels_of(const Pattern& pattern, Size projector) {
   const int length = pattern.axis == Axis::row ? projector.height : projector.width;
   std::vector<float> pixels(static_cast<std::size_t>(length),
                             pattern.kind == PatternKind::white ? 1.0F : 0.0F);
-  if (pattern.kind == PatternKind::gray) {
+  if (pattern.kind == PatternKind::gray || pattern.kind == PatternKind::phase) {
     for (int i = 0; i < length; ++i)
       pixels[static_cast<std::size_t>(i)] = pattern_is_white(pattern, static_cast<unsigned>(i)) ? 1.0F : 0.0F;
   }

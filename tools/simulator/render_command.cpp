@@ -32,6 +32,15 @@ void add_sequence_options(CLI::App& command, RenderOptions& options) {
           "stripes along rows, columns or both")
       ->check(CLI::IsMember({"rows", "columns", "both"}))
       ->default_str("rows");
+  command
+      .add_option_function<std::string>(
+          "--patterns",
+          [&options](const std::string& patterns) {
+            if (patterns == "fast") options.sequence.phase = fast_sequence.phase;
+          },
+          "thesis (Gray code with inverses) or fast (coarse Gray code and phase steps)")
+      ->check(CLI::IsMember({"thesis", "fast"}))
+      ->default_str("thesis");
   command.add_flag("!--no-inverses", options.sequence.inverses, "leave the complement pictures out");
   command.add_flag("!--no-mesh", options.write_mesh, "do not write truth/mesh.obj");
 }

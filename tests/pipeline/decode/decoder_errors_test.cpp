@@ -70,6 +70,36 @@ TEST(DecoderErrors, TooFewFramesNameTheMissingOne) {
   expect_input_error(first_error({}), "white is missing");
 }
 
+TEST(DecoderErrors, PhaseStepsMustAllComeInOrder) {
+  CaptureOptions options = small;
+  options.sequence = fast_sequence;
+  const auto captured = [&] { return capture(plane_scene(options, 0, 4), options); };
+  const auto frames = captured();
+  const PatternSequence sequence = sequence_of(options);
+  EXPECT_EQ(first_error(frames, sequence).message, "");
+
+  auto missing = captured();
+  missing.erase(missing.begin() + 4);
+  expect_input_error(first_error(missing, sequence),
+                     "expected the frame of pattern phase row step 2 of 5 (period 5), got phase row step 3");
+  auto twice = captured();
+  twice[4].pattern = twice[3].pattern;
+  expect_input_error(first_error(twice, sequence), "phase row step 2 of 5 (period 5), got phase row step 1");
+
+  PatternSequence without = sequence;
+  without.patterns.erase(without.patterns.begin() + 4);
+  EXPECT_EQ(first_error(frames, without).kind, ErrorKind::usage);
+  PatternSequence other_period = sequence;
+  other_period.patterns[4].period_px = 10;
+  EXPECT_EQ(first_error(frames, other_period).kind, ErrorKind::usage);
+  PatternSequence too_coarse = sequence;
+  too_coarse.patterns.pop_back();
+  EXPECT_EQ(first_error(frames, too_coarse).kind, ErrorKind::usage);
+  PatternSequence no_bits = sequence;
+  no_bits.patterns.resize(7);
+  EXPECT_EQ(first_error(frames, no_bits).kind, ErrorKind::usage);
+}
+
 TEST(DecoderErrors, TooManyFrames) {
   auto frames = small_capture();
   frames.push_back({frames.back().pattern, GrayImage8(small.camera, 0)});

@@ -33,10 +33,11 @@ std::size_t disagreements(const AxisCorrespondence& one, const AxisCorrespondenc
   return count;
 }
 
-TEST_P(InstructionSets, DecodeAlike) {
+// Decodes plainly and at the level, or says why not.
+void expect_alike(InstructionSet level, const SequenceOptions& sequence) {
   // A width that no vector divides; noise, shadow, blur and a jump, so that every branch is taken.
   CaptureOptions options{.camera = {243, 101}, .read_noise = 0.003};
-  options.sequence.columns = true;
+  options.sequence = sequence;
   const Scene scene = [plane = plane_scene(options, 20)](int x, int y) {
     Sight sight = plane(x, y);
     sight.scattered = 0.1;
@@ -49,10 +50,9 @@ TEST_P(InstructionSets, DecodeAlike) {
   const auto frames = capture(scene, options);
   ASSERT_TRUE(force_instruction_set(InstructionSet::v2));
   const Correspondence plain = decode(frames, sequence_of(options), {});
-  if (!force_instruction_set(GetParam())) {
+  if (!force_instruction_set(level)) {
     const std::string message = "SKIPPED: this processor lacks x86-64-v" +
-                                std::to_string(static_cast<int>(GetParam()) + 2) +
-                                ", its kernels stay untested";
+                                std::to_string(static_cast<int>(level) + 2) + ", its kernels stay untested";
     std::cerr << message << '\n';
     GTEST_SKIP() << message;
   }
@@ -62,6 +62,14 @@ TEST_P(InstructionSets, DecodeAlike) {
   EXPECT_EQ(fast.pixels_decoded, plain.pixels_decoded);
   EXPECT_EQ(disagreements(*fast.rows, *plain.rows), 0U);
   EXPECT_EQ(disagreements(*fast.columns, *plain.columns), 0U);
+}
+
+TEST_P(InstructionSets, DecodeGrayCodeAlike) {
+  expect_alike(GetParam(), {.columns = true});
+}
+
+TEST_P(InstructionSets, DecodePhaseAlike) {
+  expect_alike(GetParam(), {.columns = true, .inverses = false, .phase = PhaseCode{}});
 }
 
 INSTANTIATE_TEST_SUITE_P(Decoder, InstructionSets, testing::Values(InstructionSet::v3, InstructionSet::v4),

@@ -40,12 +40,27 @@ double stripes(int bit, int count, double position, double blur) {
   return lit_at_end ? light - edge(position - end, blur) : light;
 }
 
+// The same from the rows that a phase step lights.
+double phase_stripes(const Pattern& pattern, int count, double position, double blur) {
+  const int lit = pattern.period_px / 2;
+  if (blur > 2 * pattern.period_px) return stripes(-1, count, position, blur) * lit / pattern.period_px;
+  const double reach = 6 * blur + 1;
+  const int first = std::max(0, static_cast<int>(std::floor(position - reach)));
+  const int last = std::min(count - 1, static_cast<int>(std::ceil(position + reach)));
+  double light = 0;
+  for (int row = first; row <= last; ++row)
+    if (pattern_is_white(pattern, static_cast<unsigned>(row)))
+      light += edge(position - row + 0.5, blur) - edge(position - row - 0.5, blur);
+  return light;
+}
+
 double pattern_light(const Pattern& pattern, Size projector, const Sight& sight, double position,
                      double blur) {
   if (pattern.kind == PatternKind::black) return 0;
   const int count = pattern.axis == Axis::row ? projector.height : projector.width;
   const double white = stripes(-1, count, position, blur);
   if (pattern.kind == PatternKind::white || sight.albedo == 0) return white;
+  if (pattern.kind == PatternKind::phase) return phase_stripes(pattern, count, position, blur);
   const double lit = stripes(pattern.bit, count, position, blur);
   return pattern.inverted ? white - lit : lit;
 }

@@ -9,6 +9,10 @@
 namespace bodyscan {
 namespace {
 
+Pattern phase(Axis axis, int period_px, int step, int steps) {
+  return {.kind = PatternKind::phase, .axis = axis, .period_px = period_px, .step = step, .steps = steps};
+}
+
 TEST(GrayCode, NeighboursDifferInOneBit) {
   for (unsigned i = 0; i + 1 < 4096; ++i) EXPECT_EQ(std::popcount(gray_code(i) ^ gray_code(i + 1)), 1);
 }
@@ -62,6 +66,74 @@ TEST(PatternSequence, EveryRowHasItsOwnCode) {
   EXPECT_EQ(codes.size(), 768U);
 }
 
+TEST(FastSequence, StartsWithThePhaseStepsOfAnAxisAndKeepsTheCoarseBits) {
+  const PatternSequence sequence = make_sequence({1024, 768}, fast_sequence).value();
+  ASSERT_EQ(sequence.patterns.size(), 15U);
+  EXPECT_EQ(sequence.patterns[1].kind, PatternKind::black);
+  for (int step = 0; step < 5; ++step)
+    EXPECT_EQ(sequence.patterns[static_cast<std::size_t>(2 + step)], phase(Axis::row, 5, step, 5));
+  for (int bit = 9; bit >= 2; --bit)
+    EXPECT_EQ(sequence.patterns[static_cast<std::size_t>(16 - bit)],
+              (Pattern{PatternKind::gray, Axis::row, bit, false}));
+}
+
+TEST(FastSequence, HasNoInversesAndTakesBothAxes) {
+  const PatternSequence sequence =
+      make_sequence({1024, 600}, {.columns = true, .inverses = true, .phase = PhaseCode{}}).value();
+  ASSERT_EQ(sequence.patterns.size(), 28U);
+  EXPECT_EQ(sequence.patterns[15], phase(Axis::column, 5, 0, 5));
+  EXPECT_TRUE(std::ranges::none_of(sequence.patterns, &Pattern::inverted));
+}
+
+TEST(FastSequence, RefusesCodesThatCannotBeToldApart) {
+  const auto refused = [](const PhaseCode& code, Size projector = {1024, 768}) {
+    const auto sequence = make_sequence(projector, {.phase = code});
+    return !sequence && sequence.error().kind == ErrorKind::usage;
+  };
+  EXPECT_FALSE(refused({.period_px = 4, .steps = 4, .finest_bit = 1}));
+  EXPECT_FALSE(refused({.period_px = 64, .steps = 4, .finest_bit = 2}));
+  EXPECT_TRUE(refused({.period_px = 4, .steps = 4, .finest_bit = 2}));  // a cell is a period
+  EXPECT_TRUE(refused({.period_px = 5, .steps = 4, .finest_bit = 2}));
+  EXPECT_TRUE(refused({.period_px = 6, .steps = 2, .finest_bit = 2}));
+  EXPECT_TRUE(refused({.period_px = 65, .steps = 5, .finest_bit = 2}));
+  EXPECT_TRUE(refused({.period_px = 16, .steps = 4, .finest_bit = 3}));
+  EXPECT_TRUE(refused({.period_px = 16, .steps = 4, .finest_bit = -1}));
+  EXPECT_TRUE(refused({.period_px = 0, .steps = 0, .finest_bit = 2}));
+  EXPECT_TRUE(refused({}, {1024, 8}));
+  EXPECT_FALSE(refused({}, {1024, 9}));
+}
+
+TEST(FastSequence, EveryRowHasItsOwnCode) {
+  const PatternSequence sequence = make_sequence({4, 768}, fast_sequence).value();
+  std::set<unsigned> codes;
+  for (unsigned row = 0; row < 768; ++row) {
+    unsigned code = 0;
+    for (const Pattern& pattern : sequence.patterns)
+      if (pattern.kind == PatternKind::gray || pattern.kind == PatternKind::phase)
+        code = 2 * code + (pattern_is_white(pattern, row) ? 1 : 0);
+    codes.insert(code);
+  }
+  EXPECT_EQ(codes.size(), 768U);
+}
+
+TEST(RenderPattern, ShiftsThePhasesStripesByAStep) {
+  const int step_0[] = {255, 255, 0, 0, 0, 255, 255, 0};
+  const int step_1[] = {0, 255, 255, 0, 0, 0, 255, 255};
+  const int step_4[] = {255, 0, 0, 0, 255, 255, 0, 0};
+  const GrayImage8 rows = render_pattern(phase(Axis::row, 5, 1, 5), {3, 8});
+  const GrayImage8 columns = render_pattern(phase(Axis::column, 5, 4, 5), {8, 3});
+  const GrayImage8 unshifted = render_pattern(phase(Axis::row, 5, 0, 5), {3, 8});
+  const GrayImage8 wide = render_pattern(phase(Axis::row, 8, 1, 4), {3, 8});
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_EQ(unshifted(j, i), step_0[i]);
+      EXPECT_EQ(rows(j, i), step_1[i]);
+      EXPECT_EQ(columns(i, j), step_4[i]);
+      EXPECT_EQ(wide(j, i), i >= 2 && i < 6 ? 255 : 0);
+    }
+  }
+}
+
 TEST(RenderPattern, ShowsTheBitOfItsRowOrColumn) {
   const GrayImage8 rows = render_pattern({PatternKind::gray, Axis::row, 1, false}, {3, 8});
   const GrayImage8 inverse = render_pattern({PatternKind::gray, Axis::row, 1, true}, {3, 8});
@@ -88,6 +160,7 @@ TEST(RenderPattern, WhiteAndBlackAreUniform) {
 TEST(Pattern, DescribesItself) {
   EXPECT_EQ(describe({.kind = PatternKind::black}), "black");
   EXPECT_EQ(describe({PatternKind::gray, Axis::column, 3, true}), "gray column bit 3 inverted");
+  EXPECT_EQ(describe(phase(Axis::row, 5, 3, 5)), "phase row step 3 of 5 (period 5)");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ expect(2 "--rays: must lie in 1 to 8" render ${spheres} --rays 9)
 expect(2 "--projector: must lie" render ${spheres} --projector 1024)
 expect(2 "--pose" render ${spheres} --pose 1,2,3)
 expect(2 "--axes" render ${spheres} --axes diagonal)
+expect(2 "--patterns" render ${spheres} --patterns slow)
 expect(2 "--frame-format" render ${spheres} --frame-format tiff)
 expect(2 "--subject: no built-in \"cube\"" render --subject builtin:cube --calibration builtin:rows --output never-written)
 expect(2 "--calibration: no built-in rig \"left\"" render --subject builtin:spheres --calibration builtin:left

@@ -1,6 +1,7 @@
 #include "tools/simulator/projected_light.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,25 @@ TEST(ProjectedLight, APatternAndItsInverseAddUpToWhite) {
   const ProjectedLight inverse({PatternKind::gray, Axis::row, 2, true}, projector, 0.8, 2.5);
   for (float at = -0.5F; at < 767.5F; at += 0.77F)
     EXPECT_NEAR(light.at(at).focused + inverse.at(at).focused, 1, 1e-5) << at;
+}
+
+TEST(ProjectedLight, PhaseStepsAddUpToTheLitShareOfWhite) {
+  const PhaseCode code;
+  std::vector<ProjectedLight> steps;
+  for (int step = 0; step < code.steps; ++step)
+    steps.emplace_back(Pattern{.kind = PatternKind::phase,
+                               .axis = Axis::column,
+                               .period_px = code.period_px,
+                               .step = step,
+                               .steps = code.steps},
+                       projector, 0.55, 2.46);
+  EXPECT_EQ(steps[0].axis(), Axis::column);
+  for (float at = 10; at < 1014; at += 0.77F) {
+    float sum = 0;
+    for (const ProjectedLight& light : steps) sum += light.at(at).focused;
+    EXPECT_NEAR(sum, 2, 1e-5) << at;
+  }
+  EXPECT_NEAR(steps[3].mean(), 0.4, 2e-3);
 }
 
 TEST(ProjectedLight, BlurTakesTheFinestStripesContrastByTheGaussiansTransferFunction) {
