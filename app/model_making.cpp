@@ -76,7 +76,7 @@ Expected<void> ModelMaking::begin(const char* stage) const {
 
 Expected<void> draw_rows(const ModelMaking& run, const Correspondence& correspondence) {
   if (!run.files.rows.wanted()) return {};
-  const Expected<void> drawn = run.files.rows.write_png(
+  Expected<void> drawn = run.files.rows.write_png(
       coordinate_picture(correspondence.rows->coordinate, correspondence.projector.height));
   run.clock.end_stage("rows_picture");
   return drawn;

@@ -46,7 +46,7 @@ Expected<WhiteAndBlack> load_photographs(const CaptureFolder& capture) {
 Expected<void> make_model(const ReconstructInputs& inputs, const ModelMaking& run) {
   Expected<Correspondence> correspondence = decode(inputs, run);
   if (!correspondence) return tl::unexpected(correspondence.error());
-  if (const Expected<void> drawn = draw_rows(run, *correspondence); !drawn) return drawn;
+  if (Expected<void> drawn = draw_rows(run, *correspondence); !drawn) return drawn;
   Expected<PointGrid> points = make_points(run, *correspondence);
   if (!points) return tl::unexpected(points.error());
   *correspondence = {};

@@ -15,7 +15,13 @@ std::string cameras_text() {
   if (!cameras) return "cameras: " + cameras.error().message + "\n";
   if (cameras->empty()) return "cameras: none found on USB\n";
   std::string text = "cameras:\n";
-  for (const auto& [model, port] : *cameras) text += "  " + model + " at " + port + "\n";
+  for (const auto& [model, port] : *cameras) {
+    text += "  ";
+    text += model;
+    text += " at ";
+    text += port;
+    text += "\n";
+  }
   return text;
 }
 

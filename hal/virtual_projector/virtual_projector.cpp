@@ -18,7 +18,9 @@
 namespace bodyscan {
 namespace {
 
-using namespace virtual_projector;
+using virtual_projector::Flip;
+using virtual_projector::Flipped;
+using virtual_projector::Hello;
 
 constexpr std::int64_t answer_us = 1'000'000;
 constexpr std::uint32_t max_side_px = 16384;
@@ -79,9 +81,9 @@ Expected<Greeting> greet(const std::filesystem::path& path) {
     greeting.memory.reset(fd);
   }
   const Hello& hello = greeting.hello;
-  const bool sound = received == static_cast<ssize_t>(sizeof hello) && hello.magic == magic &&
-                     greeting.memory && hello.width > 0 && hello.height > 0 && hello.width <= max_side_px &&
-                     hello.height <= max_side_px;
+  const bool sound = received == static_cast<ssize_t>(sizeof hello) &&
+                     hello.magic == virtual_projector::magic && greeting.memory && hello.width > 0 &&
+                     hello.height > 0 && hello.width <= max_side_px && hello.height <= max_side_px;
   if (!sound) return device_error(told(path, "is no virtual projector"));
   return greeting;
 }

@@ -11,7 +11,7 @@ namespace bodyscan {
 namespace {
 
 namespace fs = std::filesystem;
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr double settle_ms = 150;
 constexpr int exposure_us = 50'000;
@@ -53,7 +53,7 @@ Expected<std::vector<std::string>> measure(double scale, const BenchOptions& opt
   const Expected<ServedWorld> world = ServedWorld::start(arguments, folder);
   if (!world) return tl::unexpected(world.error());
   write_rig(folder / "rig.toml", capture / "calibration.yml", *world);
-  std::vector<json> runs;
+  std::vector<Json> runs;
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     std::fprintf(stderr, "scan: run %d of %d\n", repeat + 1, options.repeats);
     settle_disk();
@@ -68,13 +68,13 @@ Expected<std::vector<std::string>> measure(double scale, const BenchOptions& opt
   if (!scanned) return tl::unexpected(scanned.error());
   const auto of = [&](const auto& figure) {
     std::vector<double> values;
-    for (const json& run : runs) values.push_back(figure(run));
+    for (const Json& run : runs) values.push_back(figure(run));
     return median(values);
   };
   const auto time = [&](const char* key) {
-    return of([&](const json& run) -> double { return run.at("times_ms").at(key); });
+    return of([&](const Json& run) -> double { return run.at("times_ms").at(key); });
   };
-  const double shots = of([](const json& run) -> double { return run.at("shots"); });
+  const double shots = of([](const Json& run) -> double { return run.at("shots"); });
   const double total = time("total");
   const double least = time("exposure") + shots * settle_ms + time("camera");
   const auto seconds = [](double ms) { return fixed(ms / 1000, 2); };
@@ -90,7 +90,7 @@ Expected<std::vector<std::string>> measure(double scale, const BenchOptions& opt
       seconds(time("fetch")),
       seconds(total),
       fixed(total / least, 2),
-      seconds(of([](const json& run) -> double { return run.at("after_last_shot_ms"); }))};
+      seconds(of([](const Json& run) -> double { return run.at("after_last_shot_ms"); }))};
   fs::remove_all(folder);
   return line;
 }
