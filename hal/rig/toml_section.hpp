@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -28,7 +29,7 @@ class TomlSection {
   void read(const char* key, std::string& value);
   void read(const char* key, int& value, int least, int most);
   void read(const char* key, double& value, double least, double most);
-  // A path from `folder` on.
+  // A path from `folder` on, not empty.
   void read(const char* key, std::filesystem::path& value, const std::filesystem::path& folder);
   // [width, height]
   void read(const char* key, Size& value, int most);
@@ -36,21 +37,20 @@ class TomlSection {
   template <class Value, std::size_t count>
   void read(const char* key, Value& value,
             const std::array<std::pair<std::string_view, Value>, count>& choices) {
-    std::string name;
-    read(key, name);
-    if (!has(key) || name.empty()) return;
+    const std::optional<std::string> name = text(key);
+    if (!name) return;
     std::string known;
     for (const auto& [choice, meaning] : choices) {
-      if (choice == name) {
+      if (choice == *name) {
         value = meaning;
         return;
       }
       known += (known.empty() ? "" : ", ") + std::string(choice);
     }
-    note(key, "'" + name + "' is not known; there are: " + known);
+    note(key, "'" + *name + "' is not known; there are: " + known);
   }
 
-  // Notes a key that is missing.
+  // Notes a key that is missing from the table, where there is one.
   void require(const char* key);
   // A key that is read elsewhere.
   void expect(const char* key) { known_.insert(key); }
@@ -59,6 +59,8 @@ class TomlSection {
 
  private:
   const toml::node* find(const char* key);
+  // Nothing where there is none, or something else, which is noted.
+  std::optional<std::string> text(const char* key);
   void note(const std::string& key, const std::string& problem);
 
   std::string name_;
