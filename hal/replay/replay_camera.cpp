@@ -56,7 +56,7 @@ Expected<CameraSettings> ReplayCamera::configure(const CameraSettings& wanted) {
 }
 
 Expected<void> ReplayCamera::expose() {
-  if (const Expected<void> right = require(State::ready); !right) return right;
+  if (Expected<void> right = require(State::ready); !right) return right;
   state_ = State::exposed;
   return {};
 }

@@ -19,7 +19,10 @@
 namespace bodyscan {
 namespace {
 
-using namespace virtual_projector;
+using virtual_projector::Flip;
+using virtual_projector::Flipped;
+using virtual_projector::Hello;
+using virtual_projector::magic;
 
 constexpr std::int64_t answer_us = 1'000'000;
 constexpr std::uint32_t max_side_px = 16384;
