@@ -12,7 +12,9 @@
 
 namespace bodyscan {
 
-using namespace virtual_projector;
+using virtual_projector::Flip;
+using virtual_projector::Flipped;
+using virtual_projector::Hello;
 
 FakeServer::FakeServer(const std::filesystem::path& socket, std::vector<Behaviour> behaviours)
     : listener_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)), behaviours_(std::move(behaviours)) {

@@ -15,7 +15,9 @@
 namespace bodyscan {
 namespace {
 
-using namespace virtual_projector;
+using virtual_projector::Flip;
+using virtual_projector::Flipped;
+using virtual_projector::Hello;
 
 constexpr DisplayMode mode{{8, 4}, 60};
 
