@@ -197,6 +197,16 @@ TEST(ParseRig, ATextThatIsNoTomlSaysWhere) {
   EXPECT_EQ(start("a = \"\xff\""), "rig.toml: line 1: ");
 }
 
+TEST(ParseRig, LettersBeyondAsciiStandInTextsAndCommentsOnly) {
+  const auto rig = parse_rig(replaced("\"calibration.yml\"", "\"Prüfling.yml\"  # für Köln"), "rig.toml", "");
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->calibration, "Prüfling.yml");
+  for (const std::string_view letter : {"é", "\u1681", "\u2010", "\u3001", "\ufdff"}) {
+    EXPECT_NE(message(std::string(letter) + " = 1"), "accepted") << letter;
+    EXPECT_NE(message("a " + std::string(letter) + "= 1"), "accepted") << letter;
+  }
+}
+
 TEST(ParseRig, SurvivesDeepNesting) {
   EXPECT_NE(message("a = " + std::string(max_rig_bytes / 2, '[')), "accepted");
   std::string deep;
