@@ -3,11 +3,23 @@
 #include "hal/clock.hpp"
 #include "pipeline/base/read_file.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace bodyscan {
+namespace {
+
+// A manifest's number may be larger than a setting can be.
+int whole(double value) {
+  constexpr double most = std::numeric_limits<int>::max();
+  return static_cast<int>(std::lround(std::min(value, most)));
+}
+
+}  // namespace
 
 ReplayCamera::ReplayCamera(CaptureFolder folder) : folder_(std::move(folder)) {}
 
@@ -36,8 +48,8 @@ Expected<CameraSettings> ReplayCamera::configure(const CameraSettings& wanted) {
   if (const Expected<void> right = require(State::ready); !right) return tl::unexpected(right.error());
   const CaptureManifest& manifest = folder_.manifest();
   CameraSettings settings = wanted;
-  settings.exposure_us = static_cast<int>(manifest.exposure_us.value_or(wanted.exposure_us));
-  settings.iso = static_cast<int>(manifest.iso.value_or(wanted.iso));
+  settings.exposure_us = whole(manifest.exposure_us.value_or(wanted.exposure_us));
+  settings.iso = whole(manifest.iso.value_or(wanted.iso));
   settings.aperture = manifest.aperture.value_or(wanted.aperture);
   settings.picture = folder_.size();
   return settings;

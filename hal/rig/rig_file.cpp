@@ -98,14 +98,14 @@ Expected<Rig> parse_rig(std::string_view text, const std::string& name, const pa
   if (problems.empty()) return rig;
   std::string message;
   for (const std::string& problem : problems)
-    message += (message.empty() ? "" : "\n") + name + ": " + problem;
+    message.append(message.empty() ? "" : "\n").append(name).append(": ").append(problem);
   return input_error(message);
 }
 
-Expected<Rig> read_rig(const path& file) {
-  const Expected<std::vector<std::byte>> bytes = read_file(file, max_rig_bytes);
+Expected<Rig> read_rig(const std::filesystem::path& path) {
+  const Expected<std::vector<std::byte>> bytes = read_file(path, max_rig_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
-  return parse_rig(as_text(*bytes), file.string(), file.parent_path());
+  return parse_rig(as_text(*bytes), path.string(), path.parent_path());
 }
 
 }  // namespace bodyscan

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <locale>
-#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace bodyscan {
 namespace {
@@ -38,14 +38,16 @@ void TomlSection::note(const std::string& key, const std::string& problem) {
   problems_.push_back((name_.empty() ? "" : name_ + ".") + key + ": " + problem);
 }
 
-void TomlSection::read(const char* key, std::string& value) {
+std::optional<std::string> TomlSection::text(const char* key) {
   const toml::node* node = find(key);
-  if (node == nullptr) return;
-  if (const auto* text = node->as_string()) {
-    value = text->get();
-  } else {
-    note(key, "must be a text in quotes");
-  }
+  if (node == nullptr) return std::nullopt;
+  if (const auto* text = node->as_string()) return text->get();
+  note(key, "must be a text in quotes");
+  return std::nullopt;
+}
+
+void TomlSection::read(const char* key, std::string& value) {
+  if (std::optional<std::string> given = text(key)) value = std::move(*given);
 }
 
 void TomlSection::read(const char* key, int& value, int least, int most) {
@@ -76,9 +78,13 @@ void TomlSection::read(const char* key, double& value, double least, double most
 }
 
 void TomlSection::read(const char* key, std::filesystem::path& value, const std::filesystem::path& folder) {
-  std::string name;
-  read(key, name);
-  if (!name.empty()) value = folder / name;
+  const std::optional<std::string> name = text(key);
+  if (!name) return;
+  if (name->empty()) {
+    note(key, "must not be empty");
+  } else {
+    value = folder / *name;
+  }
 }
 
 void TomlSection::read(const char* key, Size& value, int most) {
@@ -102,7 +108,7 @@ void TomlSection::read(const char* key, Size& value, int most) {
 }
 
 void TomlSection::require(const char* key) {
-  if (!has(key)) note(key, "is missing");
+  if (table_ != nullptr && !has(key)) note(key, "is missing");
 }
 
 void TomlSection::reject_others() {

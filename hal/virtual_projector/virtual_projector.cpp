@@ -13,6 +13,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 
 namespace bodyscan {
@@ -21,6 +22,7 @@ namespace {
 using virtual_projector::Flip;
 using virtual_projector::Flipped;
 using virtual_projector::Hello;
+using virtual_projector::magic;
 
 constexpr std::int64_t answer_us = 1'000'000;
 constexpr std::uint32_t max_side_px = 16384;
@@ -39,8 +41,9 @@ std::string told(const std::filesystem::path& path, const std::string& what) {
 bool wait_readable(int fd, std::int64_t until_us) {
   for (;;) {
     const std::int64_t left = until_us - monotonic_us();
+    if (left <= 0) return false;
     pollfd waiting{fd, POLLIN, 0};
-    const int ready = poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left, 0) / 1000));
+    const int ready = poll(&waiting, 1, static_cast<int>((left + 999) / 1000));
     if (ready > 0) return (waiting.revents & POLLIN) != 0;
     if (ready == 0 || errno != EINTR) return false;
   }
@@ -54,8 +57,12 @@ Expected<UniqueFd> connect_to(const std::filesystem::path& path) {
     return device_error(told(path, "the socket's name is too long"));
   std::copy(name.begin(), name.end(), address.sun_path);
   UniqueFd socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  // A projector that is busy with others keeps a client waiting before it is connected.
+  const timeval patience{answer_us / 1'000'000, answer_us % 1'000'000};
+  if (socket) setsockopt(socket.get(), SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
   if (!socket || connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    return device_error(told(path, std::string("not there: ") + std::strerror(errno)));
+    return device_error(
+        told(path, errno == EAGAIN ? "does not answer" : std::string("not there: ") + std::strerror(errno)));
   return socket;
 }
 
@@ -74,16 +81,22 @@ Expected<Greeting> greet(const std::filesystem::path& path) {
   message.msg_control = control.data();
   message.msg_controllen = control.size();
   const ssize_t received = recvmsg(greeting.socket.get(), &message, MSG_CMSG_CLOEXEC);
+  bool only_memory = false;
   if (const cmsghdr* header = CMSG_FIRSTHDR(&message);
       header != nullptr && header->cmsg_level == SOL_SOCKET && header->cmsg_type == SCM_RIGHTS) {
-    int fd = -1;
-    std::memcpy(&fd, CMSG_DATA(header), sizeof fd);
-    greeting.memory.reset(fd);
+    // The buffer's padding has room for another one.
+    for (std::size_t at = 0; CMSG_LEN(at + sizeof(int)) <= header->cmsg_len; at += sizeof(int)) {
+      int fd = -1;
+      std::memcpy(&fd, CMSG_DATA(header) + at, sizeof fd);
+      UniqueFd descriptor(fd);
+      if (at == 0) greeting.memory = std::move(descriptor);
+      only_memory = at == 0;
+    }
   }
   const Hello& hello = greeting.hello;
-  const bool sound = received == static_cast<ssize_t>(sizeof hello) &&
-                     hello.magic == virtual_projector::magic && greeting.memory && hello.width > 0 &&
-                     hello.height > 0 && hello.width <= max_side_px && hello.height <= max_side_px;
+  const bool sound = received == static_cast<ssize_t>(sizeof hello) && hello.magic == magic && only_memory &&
+                     hello.width > 0 && hello.height > 0 && hello.width <= max_side_px &&
+                     hello.height <= max_side_px;
   if (!sound) return device_error(told(path, "is no virtual projector"));
   return greeting;
 }

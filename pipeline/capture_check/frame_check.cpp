@@ -12,6 +12,7 @@ namespace {
 constexpr double samples_wanted = 20'000;
 constexpr float lit_light = 0.01F;         // white minus black, linear
 constexpr double least_lit_share = 0.002;  // of the samples
+constexpr double noise_sigmas = 5;
 constexpr float clipped_light = 0.985F;
 constexpr double most_clipped = 0.3;   // of the lit samples
 constexpr double outside = 0.25;       // beyond black or white, in units of white minus black
@@ -71,12 +72,12 @@ std::optional<FrameFault> FrameCheck::check_black(const Samples& black) {
     light_ += light;
     if (white[i] >= clipped_light) ++clipped;
   }
-  const auto share = [&](std::size_t count) {
-    return static_cast<double>(count) / static_cast<double>(black.size());
-  };
-  if (share(darker) > least_lit_share && darker > lit_.size())
-    return FrameFault{"white is darker than black", {0, 1}};
-  if (share(lit_.size()) < least_lit_share) {
+  // Noise makes as many samples darker as brighter.
+  const double brighter = static_cast<double>(lit_.size()) - static_cast<double>(darker);
+  const double chance = noise_sigmas * std::sqrt(static_cast<double>(lit_.size() + darker));
+  const double least = std::max(least_lit_share * static_cast<double>(black.size()), chance);
+  if (brighter < -least) return FrameFault{"white is darker than black", {0, 1}};
+  if (brighter < least) {
     // Black may be white's picture once more, or there is no light in either.
     black_doubted_ = !black_doubted_;
     const char* reason = "white and black show the same: the projector's light is not seen";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include <Eigen/Eigenvalues>
@@ -21,6 +22,7 @@ constexpr int max_iterations = 12;
 constexpr double converged = 0.005;    // reduced px
 constexpr double max_sigma = 0.1;      // reduced px
 constexpr double least_noise = 0.003;  // of full scale: less is not believed
+constexpr double elsewhere = 1;        // reduced px: what fits nowhere and seems to have moved more has moved
 
 float at(const FloatImage& image, double x, double y) {
   const int left = static_cast<int>(std::floor(x));
@@ -33,15 +35,35 @@ float at(const FloatImage& image, double x, double y) {
          down * ((1 - across) * lower[0] + across * lower[1]);
 }
 
+// Variance of the noise in a tile (Immerkaer 1996, eq. 2: a mask that sees no plane and no straight edge
+// along the axes).
+double noise_variance(const FloatImage& image, int left, int top) {
+  double squares = 0;
+  for (int y = top; y < top + tile; ++y) {
+    const float* above = image.row(y - 1);
+    const float* here = image.row(y);
+    const float* below = image.row(y + 1);
+    for (int x = left; x < left + tile; ++x) {
+      const float corners = above[x - 1] + above[x + 1] + below[x - 1] + below[x + 1];
+      const float sides = above[x] + below[x] + here[x - 1] + here[x + 1];
+      const double response = corners - 2 * sides + 4 * here[x];
+      squares += response * response;
+    }
+  }
+  return squares / (36.0 * tile * tile);
+}
+
 struct Alignment {
   Matrix2d structure = Matrix2d::Zero();  // sum of gradient products
   Vector2d pull = Vector2d::Zero();       // sum of gradient times brightness difference
   double squares = 0;                     // of the brightness difference
 };
 
-// `after` is read `moved` further on.
+// `after` is read `moved` further on. Sums are about the tile's means: a lamp that flickers moves no shading.
 Alignment align(const FloatImage& before, const FloatImage& after, int left, int top, const Vector2d& moved) {
   Alignment sum;
+  Vector2d gradients = Vector2d::Zero();
+  double differences = 0;
   for (int y = top; y < top + tile; ++y) {
     for (int x = left; x < left + tile; ++x) {
       const Vector2d gradient((before(x + 1, y) - before(x - 1, y)) / 2,
@@ -50,25 +72,55 @@ Alignment align(const FloatImage& before, const FloatImage& after, int left, int
       sum.structure += gradient * gradient.transpose();
       sum.pull += gradient * difference;
       sum.squares += difference * difference;
+      gradients += gradient;
+      differences += difference;
     }
   }
+  constexpr double count = tile * tile;
+  sum.structure -= gradients * gradients.transpose() / count;
+  sum.pull -= gradients * (differences / count);
+  sum.squares = std::max(0.0, sum.squares - differences * differences / count);
   return sum;
 }
 
-// The step that aligns, along the directions that the structure tells; nothing where it tells none.
-bool step_of(const Alignment& sum, Vector2d& step) {
+struct Step {
+  Vector2d moved = Vector2d::Zero();
+  bool told = false;  // by the structure, in some direction
+  bool fits = false;  // what is there, to the noise that the structure bears
+};
+
+// The step that aligns, along the directions that the structure tells. The noise's own structure,
+// half its variance a pixel, tells nothing.
+Step step_of(const Alignment& sum, double variance_before, double variance_after) {
   const Eigen::SelfAdjointEigenSolver<Matrix2d> directions(sum.structure);
-  const double noise = std::max(least_noise, std::sqrt(sum.squares) / tile);
-  step = Vector2d::Zero();
-  bool told = false;
+  const double noise = std::max(least_noise, std::sqrt(variance_before + variance_after));
+  Step step;
   for (int i = 0; i < 2; ++i) {
-    const double strength = directions.eigenvalues()[i];
+    const double strength = directions.eigenvalues()[i] - tile * tile * variance_before / 2;
     if (!(strength > 0) || noise / std::sqrt(strength) > max_sigma) continue;
     const Vector2d direction = directions.eigenvectors().col(i);
-    step -= direction * direction.dot(sum.pull) / strength;
-    told = true;
+    step.moved -= direction * direction.dot(sum.pull) / strength;
+    step.told = true;
+    step.fits |= std::sqrt(sum.squares / strength) / tile <= max_sigma;
   }
-  return told;
+  return step;
+}
+
+// Nothing where the structure tells none, or where something else is seen at the same place.
+std::optional<Vector2d> follow(const FloatImage& before, const FloatImage& after, int left, int top) {
+  const double variance_before = noise_variance(before, left, top);
+  const double variance_after = noise_variance(after, left, top);
+  Vector2d moved = Vector2d::Zero();
+  Step step;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    step = step_of(align(before, after, left, top, moved), variance_before, variance_after);
+    if (!step.told) return std::nullopt;
+    moved += step.moved;
+    if (moved.cwiseAbs().maxCoeff() > border - 1) return moved.normalized() * border;  // too far to follow
+    if (step.moved.norm() < converged) break;
+  }
+  if (!step.fits && moved.norm() < elsewhere) return std::nullopt;
+  return moved;
 }
 
 }  // namespace
@@ -102,19 +154,8 @@ std::vector<TileMotion> motion_between(const FloatImage& before, const FloatImag
   std::vector<TileMotion> tiles;
   for (int top = border; top + tile + border < before.height(); top += tile) {
     for (int left = border; left + tile + border < before.width(); left += tile) {
-      Vector2d moved = Vector2d::Zero();
-      Vector2d step = Vector2d::Zero();
-      bool told = false;
-      for (int iteration = 0; iteration < max_iterations; ++iteration) {
-        told = step_of(align(before, after, left, top, moved), step);
-        if (!told) break;
-        moved += step;
-        if (moved.cwiseAbs().maxCoeff() > border - 1 || step.norm() < converged) break;
-      }
-      // A tile that cannot be followed to an end moved too far, or shows something else.
-      if (!told && moved.isZero()) continue;
-      if (moved.cwiseAbs().maxCoeff() > border - 1) moved = moved.normalized() * border;
-      tiles.push_back({factor * Vector2d(left + tile / 2, top + tile / 2), factor * moved});
+      if (const std::optional<Vector2d> moved = follow(before, after, left, top))
+        tiles.push_back({factor * Vector2d(left + tile / 2, top + tile / 2), factor * *moved});
     }
   }
   return tiles;
