@@ -8,8 +8,7 @@
 namespace bodyscan {
 namespace {
 
-constexpr std::int64_t second_us = 1'000'000;
-constexpr std::int64_t patience_us = 10 * second_us;
+constexpr std::int64_t ms_us = 1000;
 
 // Adds the time until its end to a sum of milliseconds.
 class Stopwatch {
@@ -26,8 +25,9 @@ class Stopwatch {
 
 }  // namespace
 
-Shooting::Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence)
-    : camera_(camera), light_(light), rig_(rig), sequence_(std::move(sequence)) {
+Shooting::Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence,
+                   const Patience& patience)
+    : camera_(camera), light_(light), rig_(rig), sequence_(std::move(sequence)), patience_(patience) {
   sequence_.patterns.push_back({.kind = PatternKind::white});
 }
 
@@ -52,11 +52,12 @@ Expected<void> Shooting::open_camera() {
 }
 
 Expected<void> Shooting::persist(const std::function<Expected<void>()>& retry) {
-  const std::int64_t until = monotonic_us() + patience_us;
+  const std::int64_t until = monotonic_us() + patience_.give_up_after_ms * ms_us;
   for (;;) {
     Expected<void> done = retry();
     if (done || monotonic_us() > until) return done;
-    if (const Expected<void> waited = light_.wait_until(monotonic_us() + second_us); !waited) return waited;
+    const Expected<void> waited = light_.wait_until(monotonic_us() + patience_.retry_every_ms * ms_us);
+    if (!waited) return waited;
   }
 }
 
@@ -127,8 +128,9 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
       const Expected<Photograph> discarded = expose().and_then([&] { return fetch(); });
       if (!discarded) {
         if (const Expected<void> back = recover_camera(discarded.error()); !back) return back;
+        shown = false;
+        continue;
       }
-      current->discard_first = false;
     }
     std::optional<PlannedShot> next;
     Expected<void> next_shown;

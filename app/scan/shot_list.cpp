@@ -43,8 +43,15 @@ std::optional<PlannedShot> ShotList::next_without_waiting() {
 
 void ShotList::put_back(PlannedShot shot) {
   const std::lock_guard lock(mutex_);
-  shots_.push_front(shot);
   --unjudged_;
+  // A refusal may have brought back earlier patterns meanwhile: these stay first.
+  const auto place = std::ranges::lower_bound(shots_, shot.pattern, {}, &PlannedShot::pattern);
+  if (place == shots_.end() || place->pattern != shot.pattern) {
+    // What is thrown away after a refusal is thrown away before whichever shot is the first.
+    shot.discard_first =
+        shot.discard_first || (place == shots_.begin() && !shots_.empty() && place->discard_first);
+    shots_.insert(place, shot);
+  }
   changed_.notify_all();
 }
 

@@ -32,7 +32,7 @@ class ShotList {
   // everything is shot and accepted, or failed.
   std::optional<PlannedShot> next();
   std::optional<PlannedShot> next_without_waiting();
-  // A shot that was taken from the list but not made.
+  // A shot that was taken from the list but not made. It comes in the patterns' order again.
   void put_back(PlannedShot shot);
 
   // Whether a shot was made before the last refusal and must be made again.

@@ -12,6 +12,7 @@ namespace {
 constexpr double samples_wanted = 20'000;
 constexpr float lit_light = 0.01F;         // white minus black, linear
 constexpr double least_lit_share = 0.002;  // of the samples
+constexpr std::size_t one_sided = 3;  // light is: noise gives as many samples that are darker as brighter
 constexpr float clipped_light = 0.985F;
 constexpr double most_clipped = 0.3;   // of the lit samples
 constexpr double outside = 0.25;       // beyond black or white, in units of white minus black
@@ -74,9 +75,9 @@ std::optional<FrameFault> FrameCheck::check_black(const Samples& black) {
   const auto share = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(black.size());
   };
-  if (share(darker) > least_lit_share && darker > lit_.size())
+  if (share(darker) > least_lit_share && darker > one_sided * lit_.size())
     return FrameFault{"white is darker than black", {0, 1}};
-  if (share(lit_.size()) < least_lit_share) {
+  if (share(lit_.size()) < least_lit_share || lit_.size() < one_sided * darker) {
     // Black may be white's picture once more, or there is no light in either.
     black_doubted_ = !black_doubted_;
     const char* reason = "white and black show the same: the projector's light is not seen";
@@ -98,7 +99,7 @@ std::optional<FrameFault> FrameCheck::check_pattern(int index, const Samples& sa
   }
   if (static_cast<double>(beyond) > most_outside * static_cast<double>(lit_.size()))
     return FrameFault{"another exposure than white's and black's", {index}};
-  if (difference(samples, last_) < repeated && stripe_contrast(samples) > unresolved)
+  if (!last_.empty() && difference(samples, last_) < repeated && stripe_contrast(samples) > unresolved)
     return FrameFault{"the same picture as the shot before", {index}};
   const Pattern& pattern = patterns_[static_cast<std::size_t>(index)];
   const Samples& before = samples_[static_cast<std::size_t>(index) - 1];
