@@ -26,7 +26,7 @@ TEST_F(ScanOfAMovingSubject, OnlyThePatternsBeforeTheMotionAreShotAgain) {
   EXPECT_LT(report->motion_mm, 1);
   const MeasuredPlane plane = measured_plane(world_.options.model.path);
   EXPECT_GT(plane.points, 40'000U);
-  EXPECT_LT(plane.rms_mm, 5);
+  EXPECT_LT(plane.rms_mm, 0.5);
   EXPECT_LT(std::abs(plane.mean_mm), 0.5);
 }
 

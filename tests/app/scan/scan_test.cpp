@@ -31,7 +31,7 @@ TEST_F(Scan, MakesAModel) {
   ASSERT_TRUE(report) << report.error().message;
   const MeasuredPlane plane = measured_plane(world_.options.model.path);
   EXPECT_GT(plane.points, 40'000U);
-  EXPECT_LT(plane.rms_mm, 5);
+  EXPECT_LT(plane.rms_mm, 0.5);
   EXPECT_EQ(report->shooting.shots, world_patterns);
   EXPECT_EQ(world_.camera.shots(), world_patterns);
   EXPECT_TRUE(report->refused.empty());
