@@ -137,7 +137,7 @@ Expected<void> LiveDecoder::use_ready() {
     for (int pattern = used_; pattern <= last; ++pattern)
       if (!accepted_[static_cast<std::size_t>(pattern)]) return {};
     for (; used_ <= last; ++used_)
-      if (const Expected<void> done = use(used_); !done) return done;
+      if (Expected<void> done = use(used_); !done) return done;
   }
   return {};
 }

@@ -58,7 +58,7 @@ Expected<DecodedShots> Session::shoot(const std::vector<int>& wanted) {
   const Expected<void> shot = shooting.shoot(
       list, decoder, [&](int shots) { making.progress.show("shooting", std::min(shots, planned), planned); });
   last_shot_us = monotonic_us();
-  const Expected<void> dark = light.darken();
+  Expected<void> dark = light.darken();
   making.clock.end_stage("shoot");
   const Expected<void> all_there = shot.and_then([&] { return dark; });
   if (!all_there) decoder.abandon();
@@ -127,14 +127,14 @@ Expected<WhiteAndBlack> white_and_black(const LiveDecoder& decoder) {
 }
 
 Expected<void> make_model(Session& session) {
-  if (const Expected<void> opened = session.shooting.open(); !opened) return opened;
+  if (Expected<void> opened = session.shooting.open(); !opened) return opened;
   session.report.camera = session.shooting.identity();
   session.report.settings = session.shooting.settings();
   session.making.clock.end_stage("open_devices");
   Expected<Measured> measured = measure_at_rest(session);
   session.report.light_s = session.light.light_s();
   if (!measured) return tl::unexpected(measured.error());
-  if (const Expected<void> drawn = draw_rows(session.making, measured->correspondence); !drawn) return drawn;
+  if (Expected<void> drawn = draw_rows(session.making, measured->correspondence); !drawn) return drawn;
   measured->correspondence = {};
   const Expected<GridMesh> mesh = make_surface(session.making, std::move(measured->points));
   if (!mesh) return tl::unexpected(mesh.error());

@@ -56,14 +56,14 @@ Expected<void> Shooting::persist(const std::function<Expected<void>()>& retry) {
   for (;;) {
     Expected<void> done = retry();
     if (done || monotonic_us() > until) return done;
-    const Expected<void> waited = light_.wait_until(monotonic_us() + patience_.retry_every_ms * ms_us);
+    Expected<void> waited = light_.wait_until(monotonic_us() + patience_.retry_every_ms * ms_us);
     if (!waited) return waited;
   }
 }
 
 Expected<void> Shooting::recover_camera(const Error& trouble) {
   const Stopwatch watch(report_.recovery_ms);
-  if (const Expected<void> going_on = light_.check(); !going_on) return going_on;
+  if (Expected<void> going_on = light_.check(); !going_on) return going_on;
   report_.troubles.push_back(trouble.message);
   if (++failures_ >= rig_.scan.attempts) return tl::unexpected(trouble);
   return persist([&] {
@@ -74,7 +74,7 @@ Expected<void> Shooting::recover_camera(const Error& trouble) {
 
 Expected<void> Shooting::recover_projector(const Error& trouble) {
   const Stopwatch watch(report_.recovery_ms);
-  if (const Expected<void> going_on = light_.check(); !going_on) return going_on;
+  if (Expected<void> going_on = light_.check(); !going_on) return going_on;
   report_.troubles.push_back(trouble.message);
   if (++failures_ >= rig_.scan.attempts) return tl::unexpected(trouble);
   return persist([&] { return light_.open(); });
@@ -93,7 +93,7 @@ Expected<void> Shooting::expose() {
   {
     const Stopwatch watch(report_.settle_ms);
     const auto settle_us = static_cast<std::int64_t>(rig_.projector.settle_ms * 1000);
-    if (const Expected<void> waited = light_.wait_until(flip_us_ + settle_us); !waited) return waited;
+    if (Expected<void> waited = light_.wait_until(flip_us_ + settle_us); !waited) return waited;
   }
   double taken_ms = 0;
   Expected<void> exposed;
@@ -119,7 +119,7 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
   while (current) {
     if (!shown) {
       if (const Expected<void> done = show(*current); !done) {
-        if (const Expected<void> back = recover_projector(done.error()); !back) return back;
+        if (Expected<void> back = recover_projector(done.error()); !back) return back;
         continue;
       }
       shown = true;
@@ -127,7 +127,7 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
     if (current->discard_first) {
       const Expected<Photograph> discarded = expose().and_then([&] { return fetch(); });
       if (!discarded) {
-        if (const Expected<void> back = recover_camera(discarded.error()); !back) return back;
+        if (Expected<void> back = recover_camera(discarded.error()); !back) return back;
         shown = false;
         continue;
       }
@@ -144,7 +144,7 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
     if (!photograph || !next_shown) {
       if (next) list.put_back(*next);
       shown = false;
-      const Expected<void> back =
+      Expected<void> back =
           photograph ? recover_projector(next_shown.error()) : recover_camera(photograph.error());
       if (!back) return back;
       continue;

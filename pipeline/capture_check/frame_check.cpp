@@ -12,7 +12,6 @@ namespace {
 constexpr double samples_wanted = 20'000;
 constexpr float lit_light = 0.01F;         // white minus black, linear
 constexpr double least_lit_share = 0.002;  // of the samples
-constexpr std::size_t one_sided = 3;  // light is: noise gives as many samples that are darker as brighter
 constexpr float clipped_light = 0.985F;
 constexpr double most_clipped = 0.3;   // of the lit samples
 constexpr double outside = 0.25;       // beyond black or white, in units of white minus black
@@ -75,9 +74,9 @@ std::optional<FrameFault> FrameCheck::check_black(const Samples& black) {
   const auto share = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(black.size());
   };
-  if (share(darker) > least_lit_share && darker > one_sided * lit_.size())
+  if (share(darker) > least_lit_share && darker > lit_.size())
     return FrameFault{"white is darker than black", {0, 1}};
-  if (share(lit_.size()) < least_lit_share || lit_.size() < one_sided * darker) {
+  if (share(lit_.size()) < least_lit_share) {
     // Black may be white's picture once more, or there is no light in either.
     black_doubted_ = !black_doubted_;
     const char* reason = "white and black show the same: the projector's light is not seen";
