@@ -16,7 +16,19 @@ LiveDecoder::LiveDecoder(PatternSequence sequence, Size camera, const DecodeOpti
 }
 
 LiveDecoder::~LiveDecoder() {
+  abandon();
+}
+
+void LiveDecoder::abandon() {
+  {
+    const std::lock_guard lock(mutex_);
+    shots_.clear();
+  }
   stop();
+}
+
+bool LiveDecoder::complete() const {
+  return std::ranges::none_of(photographs_, [](const Photograph& one) { return one.file.empty(); });
 }
 
 void LiveDecoder::stop() {
@@ -98,6 +110,7 @@ Expected<void> LiveDecoder::judge(const Shot& shot) {
     list_->put_back({pattern, false, 0});
     return {};
   }
+  if (shot.planned.discard_first) check_->forget_shot_before();
   if (const auto fault = check_->check(pattern, *luma)) {
     for (const int again : fault->again) accepted_[static_cast<std::size_t>(again)] = false;
     list_->refuse(pattern, fault->again, fault->reason);
@@ -106,7 +119,7 @@ Expected<void> LiveDecoder::judge(const Shot& shot) {
   photographs_[static_cast<std::size_t>(pattern)] = shot.photograph;
   accepted_[static_cast<std::size_t>(pattern)] = true;
   if (decompressed_.size() > 1) decompressed_.clear();
-  decompressed_.emplace(pattern, std::move(*luma));
+  decompressed_.insert_or_assign(pattern, std::move(*luma));
   list_->accept();
   return {};
 }
@@ -124,7 +137,7 @@ Expected<void> LiveDecoder::use_ready() {
     for (int pattern = used_; pattern <= last; ++pattern)
       if (!accepted_[static_cast<std::size_t>(pattern)]) return {};
     for (; used_ <= last; ++used_)
-      if (const Expected<void> done = use(used_); !done) return done;
+      if (Expected<void> done = use(used_); !done) return done;
   }
   return {};
 }

@@ -46,6 +46,11 @@ class LiveDecoder {
   void hand_over(const PlannedShot& shot, Photograph photograph);
   // After the list's last shot: waits for what is still to be done.
   Expected<DecodedShots> finish();
+  // Instead of `finish`, where the list was not shot to its end: forgets what was handed over. The list is
+  // not used from then on.
+  void abandon();
+  // Whether every pattern has a photograph.
+  [[nodiscard]] bool complete() const;
 
   // The photograph that was accepted of a pattern.
   [[nodiscard]] const Photograph& photograph(int pattern) const {

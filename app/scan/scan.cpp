@@ -59,11 +59,12 @@ Expected<DecodedShots> Session::shoot(const std::vector<int>& wanted) {
   const Expected<void> shot = shooting.shoot(
       list, decoder, [&](int shots) { making.progress.show("shooting", std::min(shots, planned), planned); });
   last_shot_us = monotonic_us();
-  const Expected<void> dark = light.darken();
-  if (!shot) return tl::unexpected(shot.error());
-  if (!dark) return tl::unexpected(dark.error());
+  Expected<void> dark = light.darken();
   making.clock.end_stage("shoot");
-  Expected<DecodedShots> decoded = decoder.finish();
+  const Expected<void> all_there = shot.and_then([&] { return dark; });
+  if (!all_there) decoder.abandon();
+  Expected<DecodedShots> decoded =
+      all_there ? decoder.finish() : Expected<DecodedShots>(tl::unexpected(all_there.error()));
   making.clock.end_stage("decode");
   report.shooting = shooting.report();
   for (std::string& refusal : list.refusals()) report.refused.push_back(std::move(refusal));
@@ -127,14 +128,14 @@ Expected<WhiteAndBlack> white_and_black(const LiveDecoder& decoder) {
 }
 
 Expected<void> make_model(Session& session) {
-  if (const Expected<void> opened = session.shooting.open(); !opened) return opened;
+  if (Expected<void> opened = session.shooting.open(); !opened) return opened;
   session.report.camera = session.shooting.identity();
   session.report.settings = session.shooting.settings();
   session.making.clock.end_stage("open_devices");
   Expected<Measured> measured = measure_at_rest(session);
   session.report.light_s = session.light.light_s();
   if (!measured) return tl::unexpected(measured.error());
-  if (const Expected<void> drawn = draw_rows(session.making, measured->correspondence); !drawn) return drawn;
+  if (Expected<void> drawn = draw_rows(session.making, measured->correspondence); !drawn) return drawn;
   measured->correspondence = {};
   const Expected<GridMesh> mesh = make_surface(session.making, std::move(measured->points));
   if (!mesh) return tl::unexpected(mesh.error());
@@ -162,14 +163,14 @@ Expected<ScanReport> scan(const ScanOptions& options, const Station& station, Pr
 
   const ModelMaking making{options.model, *calibration, "the scan", *files, progress, clock, report.model};
   LightGuard light(station.projector, options.rig.scan.max_light_s, station.stop);
-  Shooting shooting(station.camera, light, options.rig, *sequence);
+  Shooting shooting(station.camera, light, options.rig, *sequence, station.patience);
   LiveDecoder decoder(*sequence, devices.camera.size, {});
   Session session{options, making, light, shooting, decoder, report};
   const Expected<void> made = make_model(session);
   station.camera.close();
   if (!made && made.error().kind != ErrorKind::quality) return tl::unexpected(made.error());
   finish_report(making);
-  if (options.photographs) {
+  if (options.photographs && decoder.complete()) {
     const Expected<void> kept =
         keep_photographs(*options.photographs, *sequence, decoder, report.camera, report.settings);
     if (!kept) return tl::unexpected(kept.error());

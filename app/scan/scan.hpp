@@ -28,7 +28,8 @@ struct ScanOptions {
 struct Station {
   Camera& camera;
   Projector& projector;
-  std::function<Expected<void>()> stop;  // gives an error once the scan is to end
+  std::function<Expected<void>()> stop;  // gives an error once the scan is to end; called from a thread
+  Patience patience = {};
 };
 
 struct ScanReport {

@@ -8,8 +8,7 @@
 namespace bodyscan {
 namespace {
 
-constexpr std::int64_t second_us = 1'000'000;
-constexpr std::int64_t patience_us = 10 * second_us;
+constexpr std::int64_t ms_us = 1000;
 
 // Adds the time until its end to a sum of milliseconds.
 class Stopwatch {
@@ -26,8 +25,9 @@ class Stopwatch {
 
 }  // namespace
 
-Shooting::Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence)
-    : camera_(camera), light_(light), rig_(rig), sequence_(std::move(sequence)) {
+Shooting::Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence,
+                   const Patience& patience)
+    : camera_(camera), light_(light), rig_(rig), sequence_(std::move(sequence)), patience_(patience) {
   sequence_.patterns.push_back({.kind = PatternKind::white});
 }
 
@@ -52,17 +52,18 @@ Expected<void> Shooting::open_camera() {
 }
 
 Expected<void> Shooting::persist(const std::function<Expected<void>()>& retry) {
-  const std::int64_t until = monotonic_us() + patience_us;
+  const std::int64_t until = monotonic_us() + patience_.give_up_after_ms * ms_us;
   for (;;) {
     Expected<void> done = retry();
     if (done || monotonic_us() > until) return done;
-    if (const Expected<void> waited = light_.wait_until(monotonic_us() + second_us); !waited) return waited;
+    Expected<void> waited = light_.wait_until(monotonic_us() + patience_.retry_every_ms * ms_us);
+    if (!waited) return waited;
   }
 }
 
 Expected<void> Shooting::recover_camera(const Error& trouble) {
   const Stopwatch watch(report_.recovery_ms);
-  if (const Expected<void> going_on = light_.check(); !going_on) return going_on;
+  if (Expected<void> going_on = light_.check(); !going_on) return going_on;
   report_.troubles.push_back(trouble.message);
   if (++failures_ >= rig_.scan.attempts) return tl::unexpected(trouble);
   return persist([&] {
@@ -73,7 +74,7 @@ Expected<void> Shooting::recover_camera(const Error& trouble) {
 
 Expected<void> Shooting::recover_projector(const Error& trouble) {
   const Stopwatch watch(report_.recovery_ms);
-  if (const Expected<void> going_on = light_.check(); !going_on) return going_on;
+  if (Expected<void> going_on = light_.check(); !going_on) return going_on;
   report_.troubles.push_back(trouble.message);
   if (++failures_ >= rig_.scan.attempts) return tl::unexpected(trouble);
   return persist([&] { return light_.open(); });
@@ -92,7 +93,7 @@ Expected<void> Shooting::expose() {
   {
     const Stopwatch watch(report_.settle_ms);
     const auto settle_us = static_cast<std::int64_t>(rig_.projector.settle_ms * 1000);
-    if (const Expected<void> waited = light_.wait_until(flip_us_ + settle_us); !waited) return waited;
+    if (Expected<void> waited = light_.wait_until(flip_us_ + settle_us); !waited) return waited;
   }
   double taken_ms = 0;
   Expected<void> exposed;
@@ -118,7 +119,7 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
   while (current) {
     if (!shown) {
       if (const Expected<void> done = show(*current); !done) {
-        if (const Expected<void> back = recover_projector(done.error()); !back) return back;
+        if (Expected<void> back = recover_projector(done.error()); !back) return back;
         continue;
       }
       shown = true;
@@ -126,9 +127,10 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
     if (current->discard_first) {
       const Expected<Photograph> discarded = expose().and_then([&] { return fetch(); });
       if (!discarded) {
-        if (const Expected<void> back = recover_camera(discarded.error()); !back) return back;
+        if (Expected<void> back = recover_camera(discarded.error()); !back) return back;
+        shown = false;
+        continue;
       }
-      current->discard_first = false;
     }
     std::optional<PlannedShot> next;
     Expected<void> next_shown;
@@ -142,7 +144,7 @@ Expected<void> Shooting::shoot(ShotList& list, LiveDecoder& decoder,
     if (!photograph || !next_shown) {
       if (next) list.put_back(*next);
       shown = false;
-      const Expected<void> back =
+      Expected<void> back =
           photograph ? recover_projector(next_shown.error()) : recover_camera(photograph.error());
       if (!back) return back;
       continue;

@@ -28,16 +28,23 @@ struct ShootingReport {
   std::vector<std::string> troubles;  // that were overcome
 };
 
+// With devices that do not answer.
+struct Patience {
+  int retry_every_ms = 1000;
+  int give_up_after_ms = 10'000;
+};
+
 // Shows, settles, exposes and fetches what a shot list asks for, and hands the photographs over. The next
 // pattern is shown while the last picture travels:
 //
 //   time = sum over shots of (flip + max(settle, fetch of the shot before) + exposure + the camera's own)
 //
-// A camera or projector that fails is closed and opened again, once a second and for ten seconds at most, and
-// the sequence goes on where it stopped.
+// A camera or projector that fails is closed and opened again, for as long as patience lasts, and the
+// sequence goes on where it stopped.
 class Shooting {
  public:
-  Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence);
+  Shooting(Camera& camera, LightGuard& light, const Rig& rig, PatternSequence sequence,
+           const Patience& patience = {});
 
   // Opens both devices. Device errors; among them a camera with problems such as a dial at the wrong place.
   Expected<void> open();
@@ -52,7 +59,7 @@ class Shooting {
   Expected<void> open_camera();
   Expected<void> recover_camera(const Error& trouble);
   Expected<void> recover_projector(const Error& trouble);
-  // `retry` once a second while it fails, for as long as devices are waited for.
+  // `retry` while it fails and patience lasts.
   Expected<void> persist(const std::function<Expected<void>()>& retry);
   Expected<void> show(const PlannedShot& shot);
   Expected<void> expose();
@@ -62,6 +69,7 @@ class Shooting {
   LightGuard& light_;
   const Rig& rig_;
   PatternSequence sequence_;
+  Patience patience_;
   CameraIdentity identity_;
   CameraSettings settings_;
   std::int64_t flip_us_ = 0;

@@ -41,10 +41,19 @@ std::optional<PlannedShot> ShotList::next_without_waiting() {
   return take();
 }
 
-void ShotList::put_back(PlannedShot shot) {
+void ShotList::bring_back(const PlannedShot& shot) {
+  const auto place = std::ranges::lower_bound(shots_, shot.pattern, {}, &PlannedShot::pattern);
+  if (place == shots_.end() || place->pattern != shot.pattern) shots_.insert(place, shot);
+}
+
+void ShotList::put_back(const PlannedShot& shot) {
   const std::lock_guard lock(mutex_);
-  shots_.push_front(shot);
   --unjudged_;
+  // A refusal may have brought back other patterns meanwhile. What is thrown away after it is thrown away
+  // before whichever shot is the first.
+  const bool discard_first = shot.discard_first || (!shots_.empty() && shots_.front().discard_first);
+  bring_back(shot);
+  shots_.front().discard_first = discard_first;
   changed_.notify_all();
 }
 
@@ -67,11 +76,7 @@ void ShotList::refuse(int judged, const std::vector<int>& again, const std::stri
   if (++refused_.at(static_cast<std::size_t>(judged)) >= attempts_ && !failure_)
     failure_ = Error{ErrorKind::device, "camera: pattern " + std::to_string(judged) + " was shot " +
                                             std::to_string(attempts_) + " times in vain: " + reason};
-  for (auto pattern = again.rbegin(); pattern != again.rend(); ++pattern) {
-    const auto waiting = std::ranges::find(shots_, *pattern, &PlannedShot::pattern);
-    if (waiting != shots_.end()) shots_.erase(waiting);
-    shots_.push_front({*pattern, false, 0});
-  }
+  for (const int pattern : again) bring_back({pattern, false, 0});
   if (!shots_.empty()) shots_.front().discard_first = true;
   changed_.notify_all();
 }

@@ -32,13 +32,13 @@ class ShotList {
   // everything is shot and accepted, or failed.
   std::optional<PlannedShot> next();
   std::optional<PlannedShot> next_without_waiting();
-  // A shot that was taken from the list but not made.
-  void put_back(PlannedShot shot);
+  // A shot that was taken from the list but not made. It comes in the patterns' order again.
+  void put_back(const PlannedShot& shot);
 
   // Whether a shot was made before the last refusal and must be made again.
   [[nodiscard]] bool outdated(const PlannedShot& shot);
   void accept();
-  // These patterns come first again.
+  // These patterns, none of which comes after the one judged, are shot again before what is left.
   void refuse(int judged, const std::vector<int>& again, const std::string& reason);
   void fail(const Error& error);
 
@@ -49,11 +49,12 @@ class ShotList {
 
  private:
   std::optional<PlannedShot> take();
+  void bring_back(const PlannedShot& shot);
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<PlannedShot> shots_;
-  std::vector<int> refused_;  // times, a pattern each
+  std::deque<PlannedShot> shots_;  // in the patterns' order
+  std::vector<int> refused_;       // times, a pattern each
   int attempts_;
   int unjudged_ = 0;
   int epoch_ = 0;

@@ -99,7 +99,7 @@ std::optional<FrameFault> FrameCheck::check_pattern(int index, const Samples& sa
   }
   if (static_cast<double>(beyond) > most_outside * static_cast<double>(lit_.size()))
     return FrameFault{"another exposure than white's and black's", {index}};
-  if (difference(samples, last_) < repeated && stripe_contrast(samples) > unresolved)
+  if (!last_.empty() && difference(samples, last_) < repeated && stripe_contrast(samples) > unresolved)
     return FrameFault{"the same picture as the shot before", {index}};
   const Pattern& pattern = patterns_[static_cast<std::size_t>(index)];
   const Samples& before = samples_[static_cast<std::size_t>(index) - 1];

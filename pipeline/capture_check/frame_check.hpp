@@ -32,6 +32,9 @@ class FrameCheck {
   // A photograph that is not used, whatever it shows.
   void skip(const Luma& photograph) { last_ = sample(photograph); }
 
+  // The shot before the next was of the same pattern and thrown away: the next may look like it.
+  void forget_shot_before() { last_.clear(); }
+
  private:
   using Samples = std::vector<float>;  // linear light, full scale 1
 
