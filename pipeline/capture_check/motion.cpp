@@ -59,27 +59,46 @@ struct Alignment {
   double squares = 0;                     // of the brightness difference
 };
 
-// `after` is read `moved` further on. Sums are about the tile's means: a lamp that flickers moves no shading.
+// `after` is read `moved` further on. A brightness that all of the tile gains, as a share of it or as such,
+// is no motion: sums are of what is left once both were fitted.
 Alignment align(const FloatImage& before, const FloatImage& after, int left, int top, const Vector2d& moved) {
   Alignment sum;
   Vector2d gradients = Vector2d::Zero();
+  Vector2d gradients_by_light = Vector2d::Zero();
+  double lights = 0;
+  double light_squares = 0;
   double differences = 0;
+  double differences_by_light = 0;
   for (int y = top; y < top + tile; ++y) {
     for (int x = left; x < left + tile; ++x) {
       const Vector2d gradient((before(x + 1, y) - before(x - 1, y)) / 2,
                               (before(x, y + 1) - before(x, y - 1)) / 2);
-      const double difference = at(after, x + moved.x(), y + moved.y()) - before(x, y);
+      const double light = before(x, y);
+      const double difference = at(after, x + moved.x(), y + moved.y()) - light;
       sum.structure += gradient * gradient.transpose();
       sum.pull += gradient * difference;
       sum.squares += difference * difference;
       gradients += gradient;
+      gradients_by_light += gradient * light;
+      lights += light;
+      light_squares += light * light;
       differences += difference;
+      differences_by_light += difference * light;
     }
   }
   constexpr double count = tile * tile;
   sum.structure -= gradients * gradients.transpose() / count;
   sum.pull -= gradients * (differences / count);
-  sum.squares = std::max(0.0, sum.squares - differences * differences / count);
+  sum.squares -= differences * differences / count;
+  const double spread = light_squares - lights * lights / count;
+  if (spread > 0) {
+    const Vector2d gradient_with_light = gradients_by_light - gradients * (lights / count);
+    const double difference_with_light = differences_by_light - differences * (lights / count);
+    sum.structure -= gradient_with_light * gradient_with_light.transpose() / spread;
+    sum.pull -= gradient_with_light * (difference_with_light / spread);
+    sum.squares -= difference_with_light * difference_with_light / spread;
+  }
+  sum.squares = std::max(0.0, sum.squares);
   return sum;
 }
 
