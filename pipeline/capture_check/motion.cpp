@@ -1,5 +1,6 @@
 #include "pipeline/capture_check/motion.hpp"
 
+#include "pipeline/base/median.hpp"
 #include "pipeline/decode/response.hpp"
 
 #include <algorithm>
@@ -22,7 +23,9 @@ constexpr int max_iterations = 12;
 constexpr double converged = 0.005;    // reduced px
 constexpr double max_sigma = 0.1;      // reduced px
 constexpr double least_noise = 0.003;  // of full scale: less is not believed
-constexpr double elsewhere = 1;        // reduced px: what fits nowhere and seems to have moved more has moved
+constexpr double unseen_noise =
+    4;  // times the variance that the mask sees: JPEG leaves the smooth part of noise
+constexpr double elsewhere = 1;  // reduced px: what fits nowhere and seems to have moved more has moved
 
 float at(const FloatImage& image, double x, double y) {
   const int left = static_cast<int>(std::floor(x));
@@ -50,7 +53,7 @@ double noise_variance(const FloatImage& image, int left, int top) {
       squares += response * response;
     }
   }
-  return squares / (36.0 * tile * tile);
+  return unseen_noise * squares / (36.0 * tile * tile);
 }
 
 struct Alignment {
@@ -118,7 +121,7 @@ Step step_of(const Alignment& sum, double variance_before, double variance_after
     const double strength = directions.eigenvalues()[i] - tile * tile * variance_before / 2;
     if (!(strength > 0) || noise / std::sqrt(strength) > max_sigma) continue;
     const Vector2d direction = directions.eigenvectors().col(i);
-    step.moved -= direction * direction.dot(sum.pull) / strength;
+    step.moved -= direction * direction.dot(sum.pull) / directions.eigenvalues()[i];
     step.told = true;
     step.fits |= std::sqrt(sum.squares / strength) / tile <= max_sigma;
   }
@@ -140,6 +143,23 @@ std::optional<Vector2d> follow(const FloatImage& before, const FloatImage& after
   }
   if (!step.fits && moved.norm() < elsewhere) return std::nullopt;
   return moved;
+}
+
+// A body moves together, noise does not: each tile moves as the median of itself and its neighbours. Tiles
+// with fewer than two neighbours are left out.
+std::vector<TileMotion> together(const std::vector<TileMotion>& tiles, double reach) {
+  std::vector<TileMotion> result;
+  for (const TileMotion& here : tiles) {
+    std::vector<double> across;
+    std::vector<double> down;
+    for (const TileMotion& other : tiles) {
+      if ((other.at - here.at).cwiseAbs().maxCoeff() > reach) continue;
+      across.push_back(other.moved.x());
+      down.push_back(other.moved.y());
+    }
+    if (across.size() > 2) result.push_back({here.at, {median(across), median(down)}});
+  }
+  return result;
 }
 
 }  // namespace
@@ -177,7 +197,7 @@ std::vector<TileMotion> motion_between(const FloatImage& before, const FloatImag
         tiles.push_back({factor * Vector2d(left + tile / 2, top + tile / 2), factor * *moved});
     }
   }
-  return tiles;
+  return together(tiles, 1.5 * factor * tile);
 }
 
 double usual_motion_px(const std::vector<TileMotion>& tiles) {

@@ -24,7 +24,8 @@ struct TileMotion {
 
 // Motion of every tile (32 reduced pixels a side) whose structure tells it to a tenth of a reduced pixel, by
 // aligning brightness (Lucas and Kanade 1981, iterated). Along an edge nothing can be told: only the motion
-// across it counts. `photographs` were reduced by `factor`, both of one size.
+// across it counts. What a body does it does together, so each tile has the median of its neighbours' motion.
+// `photographs` were reduced by `factor`, both of one size.
 std::vector<TileMotion> motion_between(const FloatImage& before, const FloatImage& after, int factor);
 
 // What a few tiles that went wrong do not decide: the motion that nine of ten do not exceed, px. 0 without
