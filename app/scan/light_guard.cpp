@@ -100,7 +100,7 @@ Expected<void> LightGuard::check() {
 
 Expected<void> LightGuard::wait_until(std::int64_t time_us) {
   for (;;) {
-    if (const Expected<void> going_on = check(); !going_on) return going_on;
+    if (Expected<void> going_on = check(); !going_on) return going_on;
     const std::int64_t left = time_us - monotonic_us();
     if (left <= 0) return {};
     std::this_thread::sleep_for(microseconds(std::min(left, look_every_us)));

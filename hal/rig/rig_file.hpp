@@ -53,6 +53,6 @@ constexpr std::size_t max_rig_bytes = std::size_t{1} << 16;
 Expected<Rig> parse_rig(std::string_view text, const std::string& name, const std::filesystem::path& folder);
 
 // The file; relative paths start at its folder.
-Expected<Rig> read_rig(const std::filesystem::path& file);
+Expected<Rig> read_rig(const std::filesystem::path& path);
 
 }  // namespace bodyscan

@@ -116,7 +116,8 @@ constexpr Damage damages[] = {
     {"\"replay\"", "\"webcam\"", "camera.backend: 'webcam' is not known; there are: gphoto2, replay"},
     {"\"replay\"", "\"\"", "camera.backend: '' is not known; there are: gphoto2, replay"},
     {"\"virtual\"", "\"Virtual\"", "projector.backend: 'Virtual' is not known; there are: drm, virtual"},
-    {"\"both\"", "\"diagonals\"", "scan.patterns: 'diagonals' is not known; there are: rows, columns, both, fast"},
+    {"\"both\"", "\"diagonals\"",
+     "scan.patterns: 'diagonals' is not known; there are: rows, columns, both, fast"},
     // of another type
     {"\"calibration.yml\"", "5", "calibration: must be a text in quotes"},
     {"\"replay\"", "1", "camera.backend: must be a text in quotes"},
