@@ -3,6 +3,7 @@
 #include "hal/rig/toml_section.hpp"
 #include "pipeline/base/read_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <utility>
@@ -13,6 +14,8 @@ namespace {
 
 using Problems = std::vector<std::string>;
 using std::filesystem::path;
+
+constexpr std::size_t max_line_bytes = 1000;
 
 constexpr std::array<std::pair<std::string_view, CameraBackend>, 2> camera_backends{
     {{"gphoto2", CameraBackend::gphoto2}, {"replay", CameraBackend::replay}}};
@@ -82,9 +85,22 @@ Rig read_sections(const toml::table& file, const path& folder, Problems& problem
   return rig;
 }
 
+// A key of thousands of parts, all on one line, would be followed to the end of the stack.
+Expected<void> check_lines(std::string_view text, const std::string& name) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t length = std::min(text.find('\n'), text.size());
+    if (length > max_line_bytes)
+      return input_error(name + ": line " + std::to_string(line) + ": longer than " +
+                         std::to_string(max_line_bytes) + " bytes");
+    text.remove_prefix(std::min(length + 1, text.size()));
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<Rig> parse_rig(std::string_view text, const std::string& name, const path& folder) {
+  if (const Expected<void> lines = check_lines(text, name); !lines) return tl::unexpected(lines.error());
   toml::table file;
   try {
     file = toml::parse(text, name);

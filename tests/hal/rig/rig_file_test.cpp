@@ -212,8 +212,11 @@ TEST(ParseRig, SurvivesDeepNesting) {
   EXPECT_NE(message("a = " + std::string(max_rig_bytes / 2, '[')), "accepted");
   std::string deep;
   while (deep.size() + 4 < max_rig_bytes) deep += "a.";
-  EXPECT_NE(message(deep + "a=1"), "accepted");
-  EXPECT_NE(message("[" + deep + "a]"), "accepted");
+  const std::string too_long = "rig.toml: line 2: longer than 1000 bytes";
+  EXPECT_EQ(message("\n" + deep + "a=1"), too_long);
+  EXPECT_EQ(message("\n[" + deep + "a]"), too_long);
+  deep.resize(990);
+  EXPECT_NE(message("[" + deep + "a]\n" + deep + "a=1"), "accepted");
 }
 
 TEST(ReadRig, PathsStartAtTheFilesFolder) {
